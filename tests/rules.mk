@@ -19,7 +19,9 @@ endif
 # The book, tried out in headless browsers.
 #: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
 test-book: book programs
-	tests/book/run out/book $(BUILD)
+	@[ -d $(BUILD)/node_modules/puppeteer-core ] || npm install --no-save --no-fund --prefix $(BUILD) puppeteer-core@24 || true
+	@if [ ! -d $(BUILD)/node_modules/puppeteer-core ]; then echo "SKIPPED: npm cannot get puppeteer-core"; \
+	    else NODE_PATH=$(BUILD)/node_modules timeout 1800 node tests/book/test.js out/book $(BUILD); fi
 
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
 #: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you (ALL=1: also those that change)
@@ -28,8 +30,6 @@ exercise:
 comparing := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp tests/known/*.cpp) \
              tests/methods/table.cpp tests/measure/measure.cpp)
 checkers  := $(comparing) $(support)
-# Chapters without paths of light: their check renders the chapter's own picture.
-draw_alone := 01 02 03 04 05 06 26
 # What the tests of chapters from 07 on begin with, compiled in advance, with the flags that tests/check/check compiles with. g++
 # takes a header for the one in here only if its time is the same: not that of another folder, from ccache.
 $(BUILD)/check/support.h: $(BUILD)/flags
@@ -42,14 +42,14 @@ checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
 $(BUILD)/check/worlds_%: $(BUILD)/obj/tests/methods/%.o $(comparing) $(common)
 	@mkdir -p $(@D); $(CXX) $(CXXFLAGS) $(filter %.o,$^) -o $@.program $(LIBS) && echo "render random scenes"
 	@$(RUN) $@.program $* write --worlds $@
+# Chapters without paths of light are checked beside the chapter's own picture, others beside its random scenes.
 #: teaching: make check CH=09      is it right? what is off, and where (NAME=1: in which function; MINE=FILE, LIMIT=30)
-check: checkers $(made) $(patsubst tests/methods/%.cpp,$(BUILD)/check/worlds_%,$(wildcard tests/methods/$(CH).cpp)) \
-       $(if $(filter $(CH),$(draw_alone)),$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
-       $(BUILD)/compare
+check: checkers $(made) $(if $(wildcard tests/methods/$(CH).cpp),$(BUILD)/check/worlds_$(CH), \
+    $(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%)))
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: teaching: make mine CH=09       run your own file as a program: out/mine/09_light_sampling.ppm (ARGS='--spp 64')
 mine: $(common) $(made)
-	@ARGS='$(ARGS)' tests/check/mine $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS)) -- $(common) $(LIBS)
+	@OPTIONS="$$ARGS" tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS)) $(LIBS)
 
 #: maintaining: make SAN=1 fuzz   100,000 (or COUNT=) damaged scenes, under the sanitizers
 # The sanitizer keeps little of what was freed: the limit of 1 GB is for what the reader itself takes.
@@ -136,5 +136,5 @@ $(BUILD)/flatten: $(BUILD)/obj/tests/race/programs/flatten.o $(common)
 started += $(BUILD)/flatten
 #: measuring: make race         other renderers beside the chapters, on the same scenes (PEERS='cycles pbrt'; PBRT=FILE, SCENES=) (28 minutes)
 race: programs $(BUILD)/flatten
-	@tests/race/race $(BUILD) $(SCENES) $(foreach name,peers blender pbrt size turns seconds reference,$(call option,$(name)))
-option = $(if $($(shell tr a-z A-Z <<<$(1))),--$(1) '$($(shell tr a-z A-Z <<<$(1)))')
+	@tests/race/race $(BUILD) $(SCENES) \
+	    $(foreach name,PEERS BLENDER PBRT SIZE TURNS SECONDS REFERENCE,$(if $($(name)),--$(name) '$($(name))'))
