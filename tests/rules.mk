@@ -19,9 +19,9 @@ endif
 # The book, tried out in headless browsers.
 #: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
 test-book: book programs
-	@[ -d $(BUILD)/node_modules/puppeteer-core ] || npm install --no-save --no-fund --prefix $(BUILD) puppeteer-core@24 || true
-	@if [ ! -d $(BUILD)/node_modules/puppeteer-core ]; then echo "SKIPPED: npm cannot get puppeteer-core"; \
-	    else NODE_PATH=$(BUILD)/node_modules timeout 1800 node tests/book/test.js out/book $(BUILD); fi
+	@[ -d $(BUILD)/node_modules/puppeteer-core ] || npm install --no-save --no-fund --prefix $(BUILD) puppeteer-core@24 || \
+	    echo "SKIPPED: npm cannot get puppeteer-core"
+	@[ ! -d $(BUILD)/node_modules/puppeteer-core ] || NODE_PATH=$(BUILD)/node_modules timeout 1800 node tests/book/test.js out/book $(BUILD)
 
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
 #: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you (ALL=1: also those that change)
