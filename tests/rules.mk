@@ -1,6 +1,9 @@
+.PHONY: test-book exercise check checkers mine fuzz probes grade boxes chart \
+        front stability agree efficiency compare references bench teeth break mutants race
+
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
-$(BUILD)/obj/tests/known/%.o: own_flags = $(briefly)
+$(BUILD)/obj/tests/known/%.o $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
 # Most tests run for less time than it takes to compile them by -O3, or with all that trace() calls in one function.
 brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
 $(brief): own_flags += $(briefly) -Dflatten=
@@ -14,26 +17,23 @@ $(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FA
 endif
 
 # The book, tried out in headless browsers.
-.PHONY: test-book
 #: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
 test-book: book programs
-	tests/book/run out/book $(BUILD)
+	@[ -d $(BUILD)/node_modules/puppeteer-core ] || npm install --no-save --no-fund --prefix $(BUILD) puppeteer-core@24 || \
+	    echo "SKIPPED: npm cannot get puppeteer-core"
+	@[ ! -d $(BUILD)/node_modules/puppeteer-core ] || NODE_PATH=$(BUILD)/node_modules timeout 1800 node tests/book/test.js out/book $(BUILD)
 
 # The reader's own version of a chapter, in my/: to begin with, and to be checked.
-.PHONY: exercise check checkers mine
-
 #: teaching: make exercise CH=09   write my/09_light_sampling/estimator.h, its new functions left to you (ALL=1: also those that change)
 exercise:
 	@common/tools/exercise '$(CH)'
 comparing := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp tests/known/*.cpp) \
              tests/methods/table.cpp tests/measure/measure.cpp)
 checkers  := $(comparing) $(support)
-# Chapters without paths of light: their check renders the chapter's own picture.
-draw_alone := 01 02 03 04 05 06 26
-$(BUILD)/check/support.h: tests/check/support.h $(BUILD)/flags
-	@mkdir -p $(@D); printf '#include "$<"\n' >$@
-# Compiled in advance, with the flags that tests/check/check compiles with. g++ takes a header for the one in here only if its
-# time is the same: not that of another folder, from ccache.
+# What the tests of chapters from 07 on begin with, compiled in advance, with the flags that tests/check/check compiles with. g++
+# takes a header for the one in here only if its time is the same: not that of another folder, from ccache.
+$(BUILD)/check/support.h: $(BUILD)/flags
+	@mkdir -p $(@D); printf '#include %s\n' '<doctest/doctest.h>' '"tests/support/gates.h"' '"tests/support/scenes.h"' >$@
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -Dflatten= -MMD -MP -MF $(BUILD)/obj/check_support.d \
 	    -x c++-header $< -o $@
@@ -42,14 +42,14 @@ checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
 $(BUILD)/check/worlds_%: $(BUILD)/obj/tests/methods/%.o $(comparing) $(common)
 	@mkdir -p $(@D); $(CXX) $(CXXFLAGS) $(filter %.o,$^) -o $@.program $(LIBS) && echo "render random scenes"
 	@$(RUN) $@.program $* write --worlds $@
+# Chapters without paths of light are checked beside the chapter's own picture, others beside its random scenes.
 #: teaching: make check CH=09      is it right? what is off, and where (NAME=1: in which function; MINE=FILE, LIMIT=30)
-check: checkers $(made) $(patsubst tests/methods/%.cpp,$(BUILD)/check/worlds_%,$(wildcard tests/methods/$(CH).cpp)) \
-       $(if $(filter $(CH),$(draw_alone)),$(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%))) \
-       $(BUILD)/compare
+check: checkers $(made) $(if $(wildcard tests/methods/$(CH).cpp),$(BUILD)/check/worlds_$(CH), \
+    $(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%)))
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: teaching: make mine CH=09       run your own file as a program: out/mine/09_light_sampling.ppm (ARGS='--spp 64')
 mine: $(common) $(made)
-	@ARGS='$(ARGS)' tests/check/mine $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS)) -- $(common) $(LIBS)
+	@OPTIONS="$$ARGS" tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS)) $(LIBS)
 
 #: maintaining: make SAN=1 fuzz   100,000 (or COUNT=) damaged scenes, under the sanitizers
 # The sanitizer keeps little of what was freed: the limit of 1 GB is for what the reader itself takes.
@@ -59,14 +59,8 @@ fuzz: $(BUILD)/fuzz_reader
 $(BUILD)/fuzz_reader: $(BUILD)/obj/tests/damage/fuzz_reader.o $(common)
 	$(link)
 
-.PHONY: fuzz
-
 # Pictures of small scenes by any renderer: what is wrong with them?
 diagnosing := $(patsubst %,$(BUILD)/obj/tests/%.o,diagnose/scenes diagnose/tiles diagnose/judge known/scenes)
-# They take little time; with -O3 g++ 12 warns of copies in std::string by mistake.
-$(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
-
-.PHONY: probes diagnose
 #: teaching: make probes       write the small scenes that build/diagnose judges any renderer by: build/probes
 probes: $(BUILD)/diagnose
 	@$< --write $(BUILD)/probes
@@ -74,7 +68,6 @@ $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 
 # Students' files, graded.
-.PHONY: grade boxes
 boxes: | $(BUILD)/packages
 	@command -v bwrap >/dev/null || common/tools/install bubblewrap
 #: teaching: make grade DIR=submissions   check a folder of students' files, each in a box, into out/grade/ (CH=09, WEIGHTS=FILE)
@@ -89,8 +82,6 @@ comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
 quick      = $(if $(QUICK),$(1))
 of_reader  = $(filter mine/%,$(A) $(B))
-
-.PHONY: chart front stability agree efficiency compare references bench teeth break
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
 	$(link)
@@ -135,17 +126,15 @@ break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
 
 # Changes of the code that no test notices.
-.PHONY: mutants
 #: maintaining: make mutants DIR=common/light   change the code in 25 (or N=) places, and list what no test notices (SEED=)
-mutants: $(made)
+mutants: programs $(BUILD)/tests $$(started)
 	@tests/mutants --build $(BUILD) $(if $(N),--n $(N)) $(if $(SEED),--seed $(SEED)) $(DIR)
 
 # Other renderers beside the methods of the chapters.
-.PHONY: race
 $(BUILD)/flatten: $(BUILD)/obj/tests/race/programs/flatten.o $(common)
 	$(link)
 started += $(BUILD)/flatten
 #: measuring: make race         other renderers beside the chapters, on the same scenes (PEERS='cycles pbrt'; PBRT=FILE, SCENES=) (28 minutes)
 race: programs $(BUILD)/flatten
-	@tests/race/race $(BUILD) $(SCENES) $(foreach name,peers blender pbrt size turns seconds reference,$(call option,$(name)))
-option = $(if $($(shell tr a-z A-Z <<<$(1))),--$(1) '$($(shell tr a-z A-Z <<<$(1)))')
+	@tests/race/race $(BUILD) $(SCENES) \
+	    $(foreach name,PEERS BLENDER PBRT SIZE TURNS SECONDS REFERENCE,$(if $($(name)),--$(name) '$($(name))'))

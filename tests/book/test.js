@@ -1,9 +1,12 @@
 // The book in headless browsers, from the file system and without a network: that its links lead somewhere, that all of it
 // can be read, and that its live parts do what they say: each chapter makes the same bytes there as on the command line.
-// Usage: node test.js BOOK BUILD chrome=PROGRAM [firefox=PROGRAM]
-const {execFileSync} = require('child_process'), fs = require('fs'), path = require('path');
+// Usage: node test.js BOOK BUILD, with puppeteer-core; in those of Chromium and Firefox that there are.
+const {execFileSync, execSync} = require('child_process'), fs = require('fs'), path = require('path');
 const puppeteer = require('puppeteer-core');
-const [, , folder, build, ...browsers] = process.argv, book = path.resolve(folder);
+const [, , folder, build] = process.argv, book = path.resolve(folder);
+const installed = names => String(execSync(`command -v ${names} | head -1`, {shell: '/bin/bash'})).trim();
+const browsers = Object.entries({chrome: installed('chromium chromium-browser google-chrome'),
+    firefox: installed('firefox-esr firefox')}).filter(([, program]) => program);
 
 let failed = 0;
 function check(claim, holds, detail = '') {
@@ -126,14 +129,12 @@ async function by_keyboard(page) {
     await page.focus('.go');
     await page.keyboard.press('Enter');
     await done(page);
-    check('Enter on its button renders', true);
 }
 
 /// The path of a pixel by click and by keys; classes of paths; a mistake in the scene; stopping.
 async function live_part(page) {
     await chapter(page, '15_mis_ris');
     await page.waitForFunction('live.viewer.pictures.length === 4 && live.viewer.canvas.checkVisibility()');
-    check('before Render, the pictures of the page are there', true);
     await fill(page, {scene: 'cornell', spp: 4});
     await page.click('.go');
     await done(page);
@@ -167,7 +168,6 @@ async function live_part(page) {
     await page.waitForFunction(`live.status.textContent.includes('samples per pixel')`);
     await page.click('.stop');
     await page.waitForFunction(`live.status.textContent.endsWith('stopped')`, {timeout: 5000});
-    check('stop ends a long render', true);
 }
 async function race(page) {
     await chapter(page, '15_mis_ris');
@@ -200,7 +200,6 @@ async function pictures(page) {
     check('and both are shown', await page.evaluate('viewer.pictures.length === 2 && viewer.node.checkVisibility()'));
     await inputs[1].uploadFile(__filename);
     await page.waitForFunction(`problem.textContent.includes('test.js')`);
-    check('a file that is no picture is named', true);
 }
 async function searching(page) {
     await open(page, 'chapters/07_path_tracing/index.html');
@@ -221,9 +220,12 @@ async function searching(page) {
 }
 
 async function main() {
+    if (browsers.length === 0 || !fs.existsSync(`${book}/book/data.js`)) {
+        return console.log('SKIPPED: no browser, or the book has no live part, since there is no em++');
+    }
     const size = all_files.reduce((sum, name) => sum + fs.statSync(name).size, 0) / 1e6;
     check('the book has at most 15 MB', size < 15, `${size.toFixed(1)} MB`);
-    for (const [kind, executablePath] of browsers.map(words => words.split('='))) {
+    for (const [kind, executablePath] of browsers) {
         console.log(`in ${kind}:`);
         const is_chrome = kind === 'chrome', args = is_chrome ? ['--no-sandbox', '--host-resolver-rules=MAP * ~NOTFOUND'] : [];
         const browser = await puppeteer.launch({browser: kind, executablePath, args}), page = await browser.newPage(), problems = [];

@@ -5,7 +5,6 @@
 #include "common/geometry/shapes.h"
 #include "common/recording/class_filter.h"
 #include "tests/known/scenes.h"
-#include "tests/known/worlds.h"
 #include "tests/support/estimators.h"
 
 namespace {

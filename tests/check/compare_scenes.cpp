@@ -1,6 +1,6 @@
 // compare_scenes NN [SCENE]: renders the known scenes by chapter NN, or one of them, and says what
-// is not as it should be; "first: ..." as soon as something is off. Then, with --worlds FILE,
-// random scenes, beside what the chapter's own file rendered of them.
+// is not as it should be. Then, with --worlds FILE, random scenes, beside what the chapter's own
+// file rendered of them.
 // compare_scenes NN write: renders these, and writes FILE.
 #include <algorithm>
 #include <cstdio>
@@ -178,11 +178,7 @@ Findings findings_of(const NamedMethod& method, const MeasureOptions& o, const s
     for (const KnownScene& scene : known_scenes()) {
         if (!fits(scene, method) || (one_alone && scene.name != o.words[1])) continue;
         watch.renders(scene.name);
-        bool was_right = findings.off.empty();
         compare(scene, watched, o, findings);
-        if (was_right && !findings.off.empty())
-            std::printf("first: %s.\n", worst_of(findings).c_str());
-        std::fflush(stdout);
     }
     return findings;
 }
@@ -272,7 +268,6 @@ bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const s
     std::string path = folder + "/" + worst + ".pbrt";
     auto number = static_cast<uint32_t>(std::stoi(worst.substr(6)));
     write_file_atomically(path, random_world(std::stoi(chapter), number));
-    std::printf("first: %s.\n", worst_of(found).c_str());
     std::printf("Random scenes are off, beside the chapter's own file. Most surely: %s.\n",
                 worst_of(found).c_str());
     print_rows(found);

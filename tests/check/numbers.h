@@ -20,7 +20,7 @@
 #include "common/scene/camera.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
-#include "tests/known/worlds.h"
+#include "tests/known/scenes.h"
 
 namespace numbers {
 

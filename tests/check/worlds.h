@@ -13,7 +13,7 @@
 #include "common/base/stats.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"
-#include "tests/known/worlds.h"
+#include "tests/known/scenes.h"
 #include "tests/measure/measure.h"
 
 /// Of what the chapter rendered: method, number of the world, and what was measured there: the mean

@@ -2,6 +2,7 @@
 // than usual: what is off there tells which mistake it is. For tests, make check and
 // build/diagnose.
 #pragma once
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,3 +25,7 @@ struct KnownScene {
 /// All of them. In most a floor of albedo 1/2 is seen from above, lit by a black lamp of 1 x 1.
 const std::vector<KnownScene>& known_scenes();
 const KnownScene& known_scene(const std::string& name);
+
+/// A small random scene, in pbrt's format, of what a chapter can render: several lights, shapes and
+/// materials at once, as no list has them. The same for the same number, on every machine.
+std::string random_world(int chapter, uint32_t number);

@@ -1,8 +1,7 @@
-#include "tests/known/worlds.h"
-
 #include <cmath>
 
 #include "common/path/sampler.h"
+#include "tests/known/scenes.h"
 #include "tests/known/words.h"
 
 namespace {

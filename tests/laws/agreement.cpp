@@ -4,7 +4,7 @@
 #include "common/render/loading.h"
 #include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
-#include "tests/known/worlds.h"
+#include "tests/known/scenes.h"
 #include "tests/laws/laws.h"
 #include "tests/support/light_paths.h"
 

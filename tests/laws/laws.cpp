@@ -1,6 +1,6 @@
 #include "tests/laws/laws.h"
 
-#include "tests/known/worlds.h"
+#include "tests/known/scenes.h"
 #include "tests/support/light_paths.h"
 
 std::vector<NamedMethod> methods_for(const Scene& scene) {

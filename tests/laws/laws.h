@@ -43,5 +43,5 @@ int check_classes_agree(const Scene& scene, int paths, uint32_t seed = 1, bool b
 /// described, or where they are: by length and class of path.
 void check_same_light(const Scene& a, const std::vector<Scene>& others, int paths);
 
-/// A random scene of what chapter 13 can render (known/worlds.h).
+/// A random scene of what chapter 13 can render (known/scenes.h).
 Scene random_scene(uint32_t number);

@@ -12,11 +12,8 @@ rows = (words(panels) + columns - 1) / columns
 set datafile separator tab
 set encoding utf8
 do for [kind in "svg png"] {
-    if (kind eq "svg") {
-        set terminal svg noenhanced font "DejaVu Sans,13" background "#ffffff" size 820 * columns, 460 * rows + 60
-    } else {
-        set terminal pngcairo noenhanced font "DejaVu Sans,13" background "#ffffff" size 820 * columns, 460 * rows + 60
-    }
+    terminal = kind eq "svg" ? "svg" : "pngcairo"
+    set terminal @terminal noenhanced font "DejaVu Sans,13" background "#ffffff" size 820 * columns, 460 * rows + 60
     set output path.".".kind
     set multiplot layout rows, columns title ARG2 font ",17"
     set logscale xy

@@ -94,13 +94,10 @@ def surface(shape, at):
             front.inputs[2].default_value = strength
             links.new(geometry.outputs["Backfacing"], front.inputs[0])
             links.new(front.outputs[0], emission.inputs["Strength"])
-        if m["type"] == "diffuse" and max(m["reflectance"]) == 0:
-            links.new(emission.outputs[0], end)
-        else:
-            both = nodes.new("ShaderNodeAddShader")
-            links.new(bsdf.outputs[0], both.inputs[0])
-            links.new(emission.outputs[0], both.inputs[1])
-            links.new(both.outputs[0], end)
+        both = nodes.new("ShaderNodeAddShader")
+        links.new(bsdf.outputs[0], both.inputs[0])
+        links.new(emission.outputs[0], both.inputs[1])
+        links.new(both.outputs[0], end)
     return made
 
 
