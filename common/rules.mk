@@ -100,8 +100,8 @@ wasm          := $(BUILD)/wasm
 # What the module makes itself, with the same bytes; it has another exp() than the skies were made with.
 made_here     := $(filter-out %.pfm,$(made))
 makers        := $(made_here:scenes/%=make_%)
-wasm_programs := $(chapters) merge compare $(basename $(makers))
-wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp common/tools/compare.cpp \
+wasm_programs := $(chapters) merge $(basename $(makers))
+wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
     $(addprefix scenes/,$(addsuffix .cpp,$(basename $(makers)))) \
     $(filter-out common/tools/%,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \

@@ -21,11 +21,11 @@ const labels = {
     show: 'How patches are shown:'
 };
 
-// kind  film: samples come one after the other;  once: one picture;  table: no scene, n samples
+// kind  film: samples come one after the other;  once: one picture, of a scene or of n samples
 // against: what it races with at first, if not with the chapter before it
 const film = (scene, own = [], more = {}) => ({kind: 'film', scene, own, spp: 16, ...more});
 const once = (scene, own, more) => ({kind: 'once', scene, own, ...more});
-const table = n => ({kind: 'table', n});
+const table = n => ({kind: 'once', n});
 const gather = [number('photons', 100000), choice('gather', 'final', 'direct')];
 const chapters = {
     '01_monte_carlo_pi': table(1 << 20),
