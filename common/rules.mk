@@ -48,7 +48,7 @@ $(BUILD)/include/stb: # of Debian's own compiler
 endif
 endif
 
-# One entry for each file that is compiled, in the form that editors and clang-tidy read.
+# One entry for each file that is compiled, in the form that editors read.
 compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
 #: maintaining: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
@@ -94,15 +94,11 @@ $(BUILD)/obj/common/render/code_hash.o: $(BUILD)/include/code_hashes.h
 book: $(made)
 	@command -v em++ >/dev/null || common/tools/install emscripten || true
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
-	    common/book/make_book out/book $(wasm) $(made_here); else common/book/make_book out/book; fi
+	    common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
 
 wasm          := $(BUILD)/wasm
-# What the module makes itself, with the same bytes; it has another exp() than the skies were made with.
-made_here     := $(filter-out %.pfm,$(made))
-makers        := $(made_here:scenes/%=make_%)
-wasm_programs := $(chapters) merge $(basename $(makers))
+wasm_programs := $(chapters) merge
 wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
-    $(addprefix scenes/,$(addsuffix .cpp,$(basename $(makers)))) \
     $(filter-out common/tools/%,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
@@ -117,13 +113,13 @@ $(wasm)/obj/%.o: %.cpp common/book/missing.h | $(wasm)/include/programs.h
 $(wasm)/obj/common/book/live.o: $(wasm)/include/programs.h
 $(wasm)/obj/common/render/code_hash.o: $(BUILD)/include/code_hashes.h
 $(wasm)/obj/chapters/%/main.o: main_as = -Dmain=main_$(notdir $(<D))
-$(wasm)/obj/common/tools/%.o $(wasm)/obj/scenes/%.o: main_as = -Dmain=main_$(subst -,_,$(notdir $*))
+$(wasm)/obj/common/tools/%.o: main_as = -Dmain=main_$(notdir $*)
 -include $(shell find $(wasm)/obj -name '*.d' 2>/dev/null)
 # The names of the programs; and stb, which is not in the compiler's own folders.
 $(wasm)/include/programs.h: $(chapters:%=chapters/%/main.cpp) common/rules.mk | $(BUILD)/packages
-	@mkdir -p $(@D); { printf 'int main_%s(int, char**);\n' $(subst -,_,$(wasm_programs)); \
+	@mkdir -p $(@D); { printf 'int main_%s(int, char**);\n' $(wasm_programs); \
 	    echo 'struct Program { const char* name; int (*main)(int, char**); };'; \
 	    echo 'inline constexpr Program programs[] = {'; \
-	    for name in $(wasm_programs); do echo "    {\"$$name\", main_$${name//-/_}},"; done; echo '};'; } >$@
+	    for name in $(wasm_programs); do echo "    {\"$$name\", main_$$name},"; done; echo '};'; } >$@
 	@ln -sfn "$$(echo '#include <stb/stb_image.h>' | $(CXX) $(CXXFLAGS) -M -x c++ - | tr ' ' '\n' | \
 	    sed -n 's|/stb_image.h$$||p')" $(@D)/stb

@@ -7,16 +7,6 @@ for (const code of document.querySelectorAll('main div.sourceCode')) {
     code.append(make('button', {class: 'copy', onclick: copy}, 'copy'));
 }
 
-// A word of the glossary shows its meaning when something points at it; on a touch screen, after the first of two taps.
-let tapped;
-for (const word of document.querySelectorAll('a[data-tip]')) {
-    word.onclick = event => {
-        if (matchMedia('(hover: none)').matches && tapped !== word) event.preventDefault();
-        tapped = word;
-        word.focus();
-    };
-}
-
 // Of the sidebar the part of this page is open; on a phone the sidebar begins closed.
 document.querySelector('.sidebar details:has([aria-current])')?.setAttribute('open', '');
 if (matchMedia('(max-width: 60rem)').matches) document.querySelector('.sidebar').open = false;

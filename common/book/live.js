@@ -36,7 +36,7 @@ class Live {
 
     fields() {
         const about = this.about, own = (about.own || []).map(o => o.values ?
-            field(o.name, labels[o.name], {}, o.values) : count(o.name, labels[o.name], o.value));
+            field(o.name, `--${o.name}`, {}, o.values) : count(o.name, `--${o.name}`, o.value));
         const seed = count('seed', 'Another seed gives other random numbers:', 0);
         if (about.n) return [[count('n', 'samples', about.n)], [seed]];
         const names = Object.keys(this.data.files).filter(file => file.endsWith('.pbrt')).map(file => file.slice(7, -5));

@@ -1,5 +1,5 @@
 # Pages, and what looks at the text of the code.
-.PHONY: help help-all diff lint pictures readmes student-edition tidy
+.PHONY: help help-all diff lint pictures readmes student-edition
 
 #: starting: make help-all     these commands, and those that only makers use
 help:
@@ -28,8 +28,3 @@ readmes: programs
 .PHONY: check_pages
 check_pages: programs
 	$(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
-
-#: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy (13 minutes)
-tidy: compile_commands.json
-	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
-	printf '%s\n' $(compiled) | xargs -n 1 -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet -p .
