@@ -1,4 +1,12 @@
 # How files are compiled and linked on each system, and what is said of it.
+.PHONY: help help-all
+#: starting: make help-all     these commands, and those that only makers use
+# Each has a line "#: GROUP: make NAME   what it does" in the Makefile or in a rules.mk.
+help help-all:
+	@echo 'All use every processor. Minutes: on two of them, when all is compiled.'
+	@for group in starting reading measuring teaching $(if $(filter help-all,$@),maintaining); do \
+	    printf '\n%s\n' $$group; sed -n "s/^#: $$group: /  /p" $(filter-out %.d,$(MAKEFILE_LIST)); done
+
 # What reads, prints and explains runs for less time than it takes to compile it by -O3.
 briefly       = $(if $(filter -O3,$(OPT)),-O1)
 brief_folders := picture render scene_file
@@ -52,10 +60,8 @@ endif
 compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
 #: maintaining: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
-	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
-	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
-	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
-	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
+	@printf '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
+	    $(foreach file,$(compiled),$(file) $(file)) | sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
 
 # Changes when the compiler or its flags do: then all is compiled again.
 $(BUILD)/flags: $(if $(COUNT),,always)

@@ -1,4 +1,5 @@
-// Pictures to look at closely: two beside each other behind a slider, the values of a pixel, exposure and the error.
+// All pages: links to sections, copies of listings; and pictures to look at closely: two beside each other behind a slider, the
+// values of a pixel, exposure and the error.
 
 const make = (tag, attributes = {}, ...children) => {
     const node = document.createElement(tag);
@@ -177,3 +178,16 @@ for (const img of document.querySelectorAll('main img[src^="data:image/png"]:not
     img.after(make('button', {type: 'button', class: 'hold', onclick: img.onclick},
         'look closely: values, error, two pictures in one'));
 }
+
+// Each section can be linked to, and each listing copied.
+for (const heading of document.querySelectorAll('main :is(h2, h3, h4)[id]')) {
+    heading.append(' ', make('a', {class: 'anchor', href: `#${heading.id}`, 'aria-label': 'link to this section'}, '#'));
+}
+for (const code of document.querySelectorAll('main div.sourceCode')) {
+    const copy = () => navigator.clipboard.writeText(code.querySelector('code').textContent);
+    code.append(make('button', {class: 'copy', onclick: copy}, 'copy'));
+}
+
+// Of the sidebar the part of this page is open; on a phone the sidebar begins closed.
+document.querySelector('.sidebar details:has([aria-current])')?.setAttribute('open', '');
+if (matchMedia('(max-width: 60rem)').matches) document.querySelector('.sidebar').open = false;

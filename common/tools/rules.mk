@@ -1,11 +1,6 @@
 # Pages, and what looks at the text of the code.
-.PHONY: help help-all diff lint pictures readmes student-edition
+.PHONY: diff lint pictures readmes student-edition
 
-#: starting: make help-all     these commands, and those that only makers use
-help:
-	@common/tools/help
-help-all:
-	@common/tools/help all
 #: reading: make diff CH=08   what a chapter changes of the one before
 diff:
 	@common/tools/chapter_diff '$(CH)'
