@@ -1,4 +1,12 @@
 # How files are compiled and linked on each system, and what is said of it.
+.PHONY: help help-all
+#: starting: make help-all     these commands, and those that only makers use
+# Each has a line "#: GROUP: make NAME   what it does" in the Makefile or in a rules.mk.
+help help-all:
+	@echo 'All use every processor. Minutes: on two of them, when all is compiled.'
+	@for group in starting reading measuring teaching $(if $(filter help-all,$@),maintaining); do \
+	    printf '\n%s\n' $$group; sed -n "s/^#: $$group: /  /p" $(filter-out %.d,$(MAKEFILE_LIST)); done
+
 # What reads, prints and explains runs for less time than it takes to compile it by -O3.
 briefly       = $(if $(filter -O3,$(OPT)),-O1)
 brief_folders := picture render scene_file
@@ -49,14 +57,12 @@ $(BUILD)/include/stb: # of Debian's own compiler
 endif
 endif
 
-# One entry for each file that is compiled, in the form that editors and clang-tidy read.
+# One entry for each file that is compiled, in the form that editors read.
 compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
 #: maintaining: make compile_commands.json   tells editors how files are compiled
 compile_commands.json: $(BUILD)/flags $(compiled)
-	@folder=$${PWD//\\/\\\\}; folder=$${folder//\"/\\\"}; \
-	    printf '{"directory": "%s", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
-	    $(foreach file,$(compiled),"$$folder" $(file) $(file)) | \
-	    sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
+	@printf '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
+	    $(foreach file,$(compiled),$(file) $(file)) | sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
 
 # Changes when the compiler or its flags do: then all is compiled again.
 $(BUILD)/flags: $(if $(COUNT),,always)
@@ -95,15 +101,11 @@ $(BUILD)/obj/common/render/code_hash.o: $(BUILD)/include/code_hashes.h
 book: $(made)
 	@command -v em++ >/dev/null || common/tools/install emscripten || true
 	@if command -v em++ >/dev/null; then $(MAKE) $(wasm)/live.js && \
-	    common/book/make_book out/book $(wasm) $(made_here); else common/book/make_book out/book; fi
+	    common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
 
 wasm          := $(BUILD)/wasm
-# What the module makes itself, with the same bytes; it has another exp() than the skies were made with.
-made_here     := $(filter-out %.pfm,$(made))
-makers        := $(made_here:scenes/%=make_%)
-wasm_programs := $(chapters) merge compare $(basename $(makers))
-wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp common/tools/compare.cpp \
-    $(addprefix scenes/,$(addsuffix .cpp,$(basename $(makers)))) \
+wasm_programs := $(chapters) merge
+wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
     $(filter-out common/tools/%,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
@@ -118,13 +120,13 @@ $(wasm)/obj/%.o: %.cpp common/book/missing.h | $(wasm)/include/programs.h
 $(wasm)/obj/common/book/live.o: $(wasm)/include/programs.h
 $(wasm)/obj/common/render/code_hash.o: $(BUILD)/include/code_hashes.h
 $(wasm)/obj/chapters/%/main.o: main_as = -Dmain=main_$(notdir $(<D))
-$(wasm)/obj/common/tools/%.o $(wasm)/obj/scenes/%.o: main_as = -Dmain=main_$(subst -,_,$(notdir $*))
+$(wasm)/obj/common/tools/%.o: main_as = -Dmain=main_$(notdir $*)
 -include $(shell find $(wasm)/obj -name '*.d' 2>/dev/null)
 # The names of the programs; and stb, which is not in the compiler's own folders.
 $(wasm)/include/programs.h: $(chapters:%=chapters/%/main.cpp) common/rules.mk | $(BUILD)/packages
-	@mkdir -p $(@D); { printf 'int main_%s(int, char**);\n' $(subst -,_,$(wasm_programs)); \
+	@mkdir -p $(@D); { printf 'int main_%s(int, char**);\n' $(wasm_programs); \
 	    echo 'struct Program { const char* name; int (*main)(int, char**); };'; \
 	    echo 'inline constexpr Program programs[] = {'; \
-	    for name in $(wasm_programs); do echo "    {\"$$name\", main_$${name//-/_}},"; done; echo '};'; } >$@
+	    for name in $(wasm_programs); do echo "    {\"$$name\", main_$$name},"; done; echo '};'; } >$@
 	@ln -sfn "$$(echo '#include <stb/stb_image.h>' | $(CXX) $(CXXFLAGS) -M -x c++ - | tr ' ' '\n' | \
 	    sed -n 's|/stb_image.h$$||p')" $(@D)/stb

@@ -2,30 +2,11 @@
 // A choice names all values, the default first; a number has its default.
 const choice = (name, ...values) => ({name, values});
 const number = (name, value) => ({name, value});
-const labels = {
-    step: 'The picture shows the work of',
-    'light-by': 'Points on lights are drawn by',
-    m: 'Candidates for each sample of the light:',
-    strategy: 'Light is found by strategy',
-    heuristic: 'The weights are by the heuristic of',
-    pixel: 'Samples are taken of the pixel\'s',
-    compensation: 'Only what is brighter than the mean is sampled (MIS compensation):',
-    pilot: 'Samples of each pixel before errors are known:',
-    'pilot-half': 'Samples of one half are placed by the pilot of the half:',
-    'extra-samples': 'More samples of light that only random hits find:',
-    'direct-by': 'Direct light is sampled as in chapter',
-    photons: 'Light paths in each pass (0: two for each pixel):',
-    gather: 'How photons are gathered:',
-    patches: 'Patches, at least:',
-    shots: 'Shots, at most:',
-    show: 'How patches are shown:'
-};
-
-// kind  film: samples come one after the other;  once: one picture;  table: no scene, n samples
+// kind  film: samples come one after the other;  once: one picture, of a scene or of n samples
 // against: what it races with at first, if not with the chapter before it
 const film = (scene, own = [], more = {}) => ({kind: 'film', scene, own, spp: 16, ...more});
 const once = (scene, own, more) => ({kind: 'once', scene, own, ...more});
-const table = n => ({kind: 'table', n});
+const table = n => ({kind: 'once', n});
 const gather = [number('photons', 100000), choice('gather', 'final', 'direct')];
 const chapters = {
     '01_monte_carlo_pi': table(1 << 20),

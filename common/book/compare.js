@@ -11,9 +11,9 @@ function layers(live) {
         list.textContent = '';
         live.complain(errors);
         if (code !== 0) return;
-        const whole = {...readPnm(files['out/picture.pfm']), name: 'all'};
+        const whole = readPfm(files['out/picture.pfm'], 'all');
         const classes = Object.keys(files).filter(file => file.startsWith('out/classes/') && file.endsWith('.pfm'));
-        const found = classes.map(file => ({...readPnm(files[file]), name: file.slice(12, -4)}));
+        const found = classes.map(file => readPfm(files[file], file.slice(12, -4)));
         found.sort((a, b) => mean(b) - mean(a));
         live.viewer.set([whole, found[0]]);
         list.append(...[whole, ...found].map(picture => make('button', {
@@ -51,7 +51,7 @@ function race(live) {
 async function run_race({live, viewer, chart, said, seconds}, methods) {
     const scene = live.sceneName(), {files} = live.data, isChanged = live.editing.value !== textOf(files[scene]);
     const file = scene.replace('scenes/', 'tests/measure/references/').replace('pbrt', 'pfm');
-    const reference = files[file] && !isChanged && {...readPnm(files[file]), name: 'reference'};
+    const reference = files[file] && !isChanged && readPfm(files[file], 'reference');
     const shown = [], size = reference ? ['--size', `${reference.width}x${reference.height}`] : [];
     const what = reference ? 'relMSE' : '(standard error of the mean / mean)²';
     for (const method of methods) method.points = [];

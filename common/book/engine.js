@@ -54,12 +54,7 @@ async function unpack() {
     }
     const {'live.js': glue, 'live.wasm': wasm, ...others} = files;
     const worker = URL.createObjectURL(new Blob([glue, workerText], {type: 'text/javascript'}));
-    const data = {files: others, worker, module: await WebAssembly.compile(wasm)};
-    await Promise.all(made.split(' ').map(async name => {
-        const program = name.replace(/scenes\/(.*)\..*/, 'make_$1'), written = name.replace('scenes', 'out');
-        others[name] = (await new Run(data, program, [written], {}, () => {}).done).files[written];
-    }));
-    return data;
+    return {files: others, worker, module: await WebAssembly.compile(wasm)};
 }
 const textOf = bytes => new TextDecoder().decode(bytes);
 const engine = unpack();

@@ -16,13 +16,13 @@ local function is_file(path)
     return file and file:close()
 end
 
--- The glossary: what a word means, by its anchors.
-local glossary = {}
+-- The glossary: what a word means, by its anchors; and its entries.
+local glossary, entries = {}, {}
 for line in io.lines("chapters/README.md") do
-    local anchors, meaning = line:match('^| (<a id=.-)%*%*.-%*%* | (.-) | ')
-    for anchor in (anchors or ""):gmatch('"(.-)"') do
-        glossary[anchor] = meaning:gsub("%[(.-)%]%(.-%)", "%1"):gsub("[$*`\\]", "")
-    end
+    local anchors, word, meaning = line:match('^| (<a id=.-)%*%*(.-)%*%* | (.-) | ')
+    meaning = (meaning or ""):gsub("%[(.-)%]%(.-%)", "%1"):gsub("[$*`\\]", "")
+    for anchor in (anchors or ""):gmatch('"(.-)"') do glossary[anchor] = meaning end
+    if anchors then entries[#entries + 1] = {anchors:match('"(.-)"'), word, meaning} end
 end
 
 function Link(link)
@@ -45,20 +45,17 @@ function Math(formula)
     if formula.mathtype == "DisplayMath" then return pandoc.Span({formula}, {class = "formula"}) end
 end
 
--- A number stays with its unit, and a unit in one line.
-local units = {["%"] = true, s = true, ms = true, m = true, kB = true, MB = true, GB = true, nm = true, samples = true}
+-- A formula does not leave what ends its sentence.
 function Inlines(inlines)
-    for i = 2, #inlines - 1 do
-        local before, after = inlines[i - 1].text or "", (inlines[i + 1].text or ""):gsub("[.,;:)]*$", "")
-        local is_unit = after:match("^%a*⁻") or before:match("^[(]?[%d.,]+$") and units[after]
-        if inlines[i].t == "Space" and is_unit then inlines[i] = pandoc.Str("\u{a0}") end
-    end
-    for i = #inlines - 1, 1, -1 do -- nor does a formula leave what ends its sentence
+    for i = #inlines - 1, 1, -1 do
         if inlines[i].t == "Math" and (inlines[i + 1].text or ""):match("^[.,;:)]") then
             inlines[i] = pandoc.Span({inlines[i], inlines:remove(i + 1)}, {class = "together"})
         end
     end
     return inlines
+end
+function Str(word)
+    if word.text:find("$", 1, true) then error("a formula that is not one: " .. word.text) end
 end
 
 -- Drawings become part of the page, in its colors. Other pictures are files of their own where they are photographs, and else
@@ -83,7 +80,7 @@ function Image(image)
         return image
     end
     if chapter then
-        local names = pandoc.pipe("common/tools/make_strips", {"--names", chapter}, "")
+        local names = pandoc.pipe("common/tools/make_pictures", {"--names", chapter}, "")
         image.attributes["data-names"] = names:gsub("\n$", "")
     end
     image.src = "data:" .. kinds[file:match("%w+$")] .. ";base64," .. pandoc.pipe("base64", {"-w0", file}, "")
@@ -117,4 +114,28 @@ function RawInline(raw)
     local chapter = folder == "." and src:match("^chapters/(%d[^/]*)/")
     if not chapter then return Image(pandoc.Image(alt, src)) end
     return pandoc.Image(alt, "book/" .. chapter .. ".jpg", "", {class = "thumbnail", loading = "lazy"})
+end
+
+-- What the search page searches in: of each section its address, page, heading and text. An entry of the glossary is one, too.
+function Pandoc(doc)
+    local page = os.getenv("PAGE")
+    if page:match("%.%w+%.html$") or page:match("^common/book/") then return nil end
+    local index = io.open(book .. "/book/sections.js", "a")
+    local function add(anchor, title, heading, text)
+        text = text:gsub("%s+", " ")
+        index:write(string.format("sections.push([%q, %q, %q, %q]);\n", page .. "#" .. anchor, title, heading, text))
+    end
+    local title, anchor, blocks = pandoc.utils.stringify(doc.meta.pagetitle), "", {}
+    local heading = title
+    for _, block in ipairs(doc.blocks .. {pandoc.Header(1, {})}) do
+        if block.t == "Header" then
+            local section = pandoc.Div(blocks):walk({Math = function() return {} end})
+            add(anchor, title, heading, pandoc.write(pandoc.Pandoc({section}), "plain", {columns = 1000}))
+            anchor, heading, blocks = block.identifier, pandoc.utils.stringify(block), {}
+        else
+            blocks[#blocks + 1] = block
+        end
+    end
+    for _, entry in ipairs(page == "chapters/index.html" and entries or {}) do add(entry[1], "Glossary", entry[2], entry[3]) end
+    index:close()
 end

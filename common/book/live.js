@@ -31,14 +31,14 @@ class Live {
             this.node.append(layers(this), race(this));
             this.viewer.pick = ([x, y]) => this.tell(x, y);
         }
-        if (this.about.kind !== 'table') this.node.insertBefore(this.editor(), this.errors);
+        if (this.about.scene) this.node.insertBefore(this.editor(), this.errors);
     }
 
     fields() {
         const about = this.about, own = (about.own || []).map(o => o.values ?
-            field(o.name, labels[o.name], {}, o.values) : count(o.name, labels[o.name], o.value));
+            field(o.name, `--${o.name}`, {}, o.values) : count(o.name, `--${o.name}`, o.value));
         const seed = count('seed', 'Another seed gives other random numbers:', 0);
-        if (about.kind === 'table') return [[count('n', 'samples', about.n)], [seed]];
+        if (about.n) return [[count('n', 'samples', about.n)], [seed]];
         const names = Object.keys(this.data.files).filter(file => file.endsWith('.pbrt')).map(file => file.slice(7, -5));
         const scene = field('scene', 'scene', {}, names);
         scene.lastChild.value = about.scene;
@@ -79,6 +79,7 @@ class Live {
     }
     /// A program of a chapter, with the scene as it stands in the page.
     start(program, args, show) {
+        if (!this.about.scene) return this.run(program, args, {});
         const files = {...this.data.files, [this.sceneName()]: this.editing.value};
         return this.run(program, [...args, '--threads', '1'], files, show);
     }
@@ -109,19 +110,6 @@ class Live {
     once() { return this.start(this.name, [...this.words(), '--out', 'out/picture.pfm']); }
     sceneName() { return `scenes/${this.form.elements.scene.value}.pbrt`; }
 
-    /// More and more samples, up to those asked for.
-    async table() {
-        const n = +this.form.elements.n.value, shares = [64, 8, 1];
-        let done;
-        for (const [stage, share] of shares.entries()) {
-            if (done) this.report(done, `stage ${stage} of ${shares.length}`);
-            const some = Math.max(1, Math.floor(n / share));
-            done = await this.run(this.name, ['--n', `${some}`, ...this.options(), '--out', 'out/picture.pfm'], {});
-            if (done.code !== 0) break;
-        }
-        return done;
-    }
-
     /// Parts of the samples in several workers, each into a film of its own; then all as one.
     async film() {
         const spp = Math.max(1, +this.form.elements.spp.value);
@@ -150,12 +138,12 @@ class Live {
     }
     seconds() { return ((performance.now() - this.began) / 1000).toFixed(1); }
 
-    report({code, files, out, errors}, how = 'done') {
+    report({code, files, out, errors}) {
         this.result = files;
-        if (files['out/picture.pfm']) this.viewer.set([{...readPnm(files['out/picture.pfm']), name: this.name}]);
+        if (files['out/picture.pfm']) this.viewer.set([readPfm(files['out/picture.pfm'], this.name)]);
         this.print(out);
         this.complain(errors);
-        this.status.textContent = code === 0 ? `${how} in ${this.seconds()} s` : `the program ended with code ${code}`;
+        this.status.textContent = code === 0 ? `done in ${this.seconds()} s` : `the program ended with code ${code}`;
     }
     print(out, hint = '') {
         this.text.hidden = out.length === 0;

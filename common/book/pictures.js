@@ -1,4 +1,5 @@
-// Pictures to look at closely: two beside each other behind a slider, the values of a pixel, exposure and the error.
+// All pages: links to sections, copies of listings; and pictures to look at closely: two beside each other behind a slider, the
+// values of a pixel, exposure and the error.
 
 const make = (tag, attributes = {}, ...children) => {
     const node = document.createElement(tag);
@@ -22,35 +23,16 @@ const toSrgb = Uint8ClampedArray.from({length: steps + 1}, (_, i) => {
     return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 });
 
-/// What is drawn on a canvas: {width, height, pixels}, linear, four numbers a pixel from the top left.
-function linear(canvas, x = 0, y = 0, width = canvas.width, height = canvas.height) {
-    const {data} = canvas.getContext('2d').getImageData(x, y, width, height);
-    return {width, height, pixels: Float32Array.from(data, (code, i) => i % 4 === 3 ? 1 : fromSrgb[code])};
-}
-function canvasOf(image) {
-    const canvas = make('canvas', {width: image.naturalWidth || image.width, height: image.naturalHeight || image.height});
-    canvas.getContext('2d').drawImage(image, 0, 0);
-    return canvas;
-}
-/// A picture in the bytes of a .pfm, a .ppm or a .png file.
-async function readPicture(bytes) {
-    if (bytes[0] === 0x89) {
-        return linear(canvasOf(await createImageBitmap(new Blob([bytes]), {colorSpaceConversion: 'none'})));
+/// The picture in the bytes of a .pfm file: {name, width, height, pixels}, linear, four numbers a pixel from the top left.
+function readPfm(bytes, name) {
+    const [head, width, height] = new TextDecoder('latin1').decode(bytes.subarray(0, 1 << 16))
+        .match(/^PF\s(?:#.*\n)*(\d+)\s+(\d+)\s+(?:#.*\n)*\S+\s/);
+    const values = new Float32Array(bytes.slice(head.length).buffer), pixels = new Float32Array(4 * width * height).fill(1);
+    for (let i = 0; i < width * height; i++) {
+        const from = 3 * (i % width + width * (height - 1 - Math.floor(i / width)));
+        pixels.set(values.subarray(from, from + 3), 4 * i);
     }
-    return readPnm(bytes);
-}
-function readPnm(bytes) {
-    const [head, kind, width, height] = new TextDecoder('latin1').decode(bytes.subarray(0, 1 << 16))
-        .match(/^(P6|PF)\s(?:#.*\n)*(\d+)\s+(\d+)\s+(?:#.*\n)*\S+\s/);
-    const isPfm = kind === 'PF', body = bytes.slice(head.length), pixels = new Float32Array(4 * width * height).fill(1);
-    const values = isPfm ? new Float32Array(body.buffer) : Float32Array.from(body, code => fromSrgb[code]);
-    for (let y = 0; y < height; y++) {
-        for (let x = 0; x < width; x++) {
-            const from = 3 * ((isPfm ? height - 1 - y : y) * width + x);
-            pixels.set(values.subarray(from, from + 3), 4 * (y * width + x));
-        }
-    }
-    return {width: +width, height: +height, pixels};
+    return {name, width: +width, height: +height, pixels};
 }
 
 /// A canvas with what is needed to look closely. pictures: {name, width, height, pixels}, all of one size. The first
@@ -169,11 +151,14 @@ class Viewer {
 
 /// The pictures in an <img>: of a strip each tile, 256 pixels and a border of 2, below a label.
 function picturesOf(img) {
-    const side = 256, step = side + 4, label = 24, canvas = canvasOf(img), tiles = canvas.width / step;
-    if (canvas.height !== side + label || !Number.isInteger(tiles)) return [{...linear(canvas), name: img.alt}];
+    const side = 256, step = side + 4, label = 24, size = {width: img.naturalWidth, height: img.naturalHeight};
+    const paint = make('canvas', size).getContext('2d'), tiles = size.width / step;
+    paint.drawImage(img, 0, 0);
+    const part = (name, x, y, width, height) => ({name, width, height, pixels: Float32Array.from(
+        paint.getImageData(x, y, width, height).data, (code, i) => i % 4 === 3 ? 1 : fromSrgb[code])});
+    if (size.height !== side + label || !Number.isInteger(tiles)) return [part(img.alt, 0, 0, size.width, size.height)];
     const names = (img.dataset.names || '').split('|');
-    return Array.from({length: tiles}, (_, t) =>
-        ({...linear(canvas, t * step + 2, label, side, side), name: names[t] || `tile ${t + 1}`}));
+    return Array.from({length: tiles}, (_, t) => part(names[t] || `tile ${t + 1}`, t * step + 2, label, side, side));
 }
 
 /// Opens the pictures of an <img>.
@@ -193,3 +178,16 @@ for (const img of document.querySelectorAll('main img[src^="data:image/png"]:not
     img.after(make('button', {type: 'button', class: 'hold', onclick: img.onclick},
         'look closely: values, error, two pictures in one'));
 }
+
+// Each section can be linked to, and each listing copied.
+for (const heading of document.querySelectorAll('main :is(h2, h3, h4)[id]')) {
+    heading.append(' ', make('a', {class: 'anchor', href: `#${heading.id}`, 'aria-label': 'link to this section'}, '#'));
+}
+for (const code of document.querySelectorAll('main div.sourceCode')) {
+    const copy = () => navigator.clipboard.writeText(code.querySelector('code').textContent);
+    code.append(make('button', {class: 'copy', onclick: copy}, 'copy'));
+}
+
+// Of the sidebar the part of this page is open; on a phone the sidebar begins closed.
+document.querySelector('.sidebar details:has([aria-current])')?.setAttribute('open', '');
+if (matchMedia('(max-width: 60rem)').matches) document.querySelector('.sidebar').open = false;

@@ -7,12 +7,12 @@ const whole = words => {
 };
 /// Sections that contain all words: those of the glossary first, then those with a word in a heading, then the others.
 function search(words) {
-    const found = sections.map(([address, page, heading, text]) => {
-        const scores = words.map(word => Math.min(5, text.match(whole([word]))?.length || 0) +
-            (whole([word]).test(`${page} ${heading}`) ? page === 'Glossary' ? 100 : 20 : 0));
+    return sections.map(([address, page, heading, text]) => {
+        const bonus = page === 'Glossary' ? 100 : 20;
+        const scores = words.map(word => whole([word])).map(word => Math.min(5, text.match(word)?.length || 0) +
+            (`${page} ${heading}`.match(word) ? bonus : 0));
         return {score: Math.min(...scores) && scores.reduce((sum, x) => sum + x), address, page, heading, text};
-    });
-    return found.filter(({score}) => score > 0).sort((a, b) => b.score - a.score);
+    }).filter(({score}) => score > 0).sort((a, b) => b.score - a.score);
 }
 /// The text around the first of the words, with all words marked.
 function excerpt(text, words) {

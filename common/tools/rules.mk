@@ -1,11 +1,6 @@
 # Pages, and what looks at the text of the code.
-.PHONY: help help-all diff lint pictures readmes student-edition tidy
+.PHONY: diff lint pictures readmes student-edition
 
-#: starting: make help-all     these commands, and those that only makers use
-help:
-	@common/tools/help
-help-all:
-	@common/tools/help all
 #: reading: make diff CH=08   what a chapter changes of the one before
 diff:
 	@common/tools/chapter_diff '$(CH)'
@@ -19,7 +14,6 @@ student-edition:
 #: maintaining: make pictures     render the small pictures that the READMEs show; those that are right stay as they are
 pictures: programs
 	common/tools/make_pictures $(BUILD)
-	common/tools/make_strips $(BUILD)
 #: maintaining: make readmes      put code, diffs and what the programs print into the READMEs (SLOW=1: what takes long)
 readmes: programs
 	common/tools/fill_readmes $(if $(SLOW),--slow)
@@ -29,8 +23,3 @@ readmes: programs
 .PHONY: check_pages
 check_pages: programs
 	$(if $(findstring mingw,$(machine)),,common/tools/fill_readmes --check $(if $(filter build,$(BUILD)),,--text))
-
-#: maintaining: make tidy         clang-tidy's checks, those in .clang-tidy (13 minutes)
-tidy: compile_commands.json
-	@command -v clang-tidy >/dev/null || common/tools/install clang-tidy
-	printf '%s\n' $(compiled) | xargs -n 1 -P $$(getconf _NPROCESSORS_ONLN) clang-tidy --quiet -p .

@@ -188,18 +188,6 @@ async function pictures(page) {
     const tiles = await page.$$eval('dialog .choices button', list => list.map(button => button.textContent));
     check('a picture of the page opens, and its tiles have names', tiles.length === 4 && tiles[3].includes('error of 15'),
         tiles.join('; '));
-    await open(page, 'common/book/own_pictures.html');
-    check('there is no empty picture', await page.$eval('.viewer', node => !node.checkVisibility()));
-    const words = ['scenes/cornell.pbrt', '--size', '48x32', '--spp', '4', '--seed'], inputs = await page.$$('input[type=file]');
-    const files = ['a.pfm', 'b.png'].map((name, k) => from_program('15_mis_ris', [...words, k], `${build}/book-test-${name}`));
-    for (const [k, input] of inputs.entries()) await input.uploadFile(files[k]);
-    await page.waitForFunction(`said.textContent.includes('verdict:')`);
-    const native = files.reduce((s, file, k) => s.replaceAll(file, `${'AB'[k]}/${path.basename(file)}`),
-        String(execFileSync(`${build}/compare`, files)).trim());
-    check(`two files of the reader's own: what compare says`, native === (await text(page, '.own .printed')).trim());
-    check('and both are shown', await page.evaluate('viewer.pictures.length === 2 && viewer.node.checkVisibility()'));
-    await inputs[1].uploadFile(__filename);
-    await page.waitForFunction(`problem.textContent.includes('test.js')`);
 }
 async function searching(page) {
     await open(page, 'chapters/07_path_tracing/index.html');
