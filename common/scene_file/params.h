@@ -211,8 +211,15 @@ private:
         stands_in_ = !or_stand_in(owner()).empty();
         if (stands_in_) input_->stand_in(at, owner());
         const auto& types = known_params().at(directive_);
-        if (!types.contains(type_)) refuse_old(at, type_);
-        known_ = &look_up(types, type_, directive_, at);
+        if (!types.contains(type_)) {
+            refuse_old(at, type_);
+            std::vector<std::string> known = names_of(types);
+            std::erase_if(known, [&](const std::string& type) {
+                return !or_stand_in(directive_ + ' ' + quote(type)).empty();
+            });
+            fail_unknown(at, directive_, type_, known);
+        }
+        known_ = &types.at(type_);
     }
     bool is_usable(const Param& param) const {
         const std::string given = quote(param.type + ' ' + param.name) + " of " + owner();

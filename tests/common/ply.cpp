@@ -113,7 +113,7 @@ TEST_SUITE("ply") {
                           one = "element vertex 1\n" + vertex + face, origin(12, '\0'),
                           corners("\3\0\0\0\0\0\0\0\0\0\0\0\0", 13), header = little(one);
         CHECK(refuse(little("element vertex 60000000\n" + vertex + face) + origin)
-                  .find(": error: the file is too short for 1 values at byte ") == 8);
+                  .find(": error: the file ends too early at byte ") == 8);
         CHECK(refuse(little("element big 1\nproperty list uint char values\n" + one) +
                      "\xff\xff\xff\xff" + origin)
                   .find(": error: the file is too short for 4294967295 values") == 8);
