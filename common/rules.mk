@@ -104,8 +104,9 @@ book: $(made)
 	    common/book/make_book out/book $(wasm); else common/book/make_book out/book; fi
 
 wasm          := $(BUILD)/wasm
-wasm_programs := $(chapters) merge
-wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp \
+# The knot's mesh is large: the module writes it.
+wasm_programs := $(chapters) merge make_knot
+wasm_code     := $(chapters:%=chapters/%/main.cpp) common/tools/merge.cpp scenes/make_knot.cpp \
     $(filter-out common/tools/%,$(wildcard common/*/*.cpp))
 wasm_flags     = -std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -fno-trapping-math \
     -ffp-contract=off -I. -isystem $(wasm)/include $(hash_flags) -include common/book/missing.h
@@ -120,7 +121,7 @@ $(wasm)/obj/%.o: %.cpp common/book/missing.h | $(wasm)/include/programs.h
 $(wasm)/obj/common/book/live.o: $(wasm)/include/programs.h
 $(wasm)/obj/common/render/code_hash.o: $(BUILD)/include/code_hashes.h
 $(wasm)/obj/chapters/%/main.o: main_as = -Dmain=main_$(notdir $(<D))
-$(wasm)/obj/common/tools/%.o: main_as = -Dmain=main_$(notdir $*)
+$(wasm)/obj/common/tools/%.o $(wasm)/obj/scenes/%.o: main_as = -Dmain=main_$(notdir $*)
 -include $(shell find $(wasm)/obj -name '*.d' 2>/dev/null)
 # The names of the programs; and stb, which is not in the compiler's own folders.
 $(wasm)/include/programs.h: $(chapters:%=chapters/%/main.cpp) common/rules.mk | $(BUILD)/packages

@@ -54,7 +54,9 @@ async function unpack() {
     }
     const {'live.js': glue, 'live.wasm': wasm, ...others} = files;
     const worker = URL.createObjectURL(new Blob([glue, workerText], {type: 'text/javascript'}));
-    return {files: others, worker, module: await WebAssembly.compile(wasm)};
+    const data = {files: others, worker, module: await WebAssembly.compile(wasm)};
+    const {files: {'out/knot.ply': knot}} = await new Run(data, 'make_knot', ['out/knot.ply'], {}, () => {}).done;
+    return {...data, files: {...others, 'scenes/knot.ply': knot}};
 }
 const textOf = bytes => new TextDecoder().decode(bytes);
 const engine = unpack();

@@ -123,6 +123,7 @@ function Pandoc(doc)
     local index = io.open(book .. "/book/sections.js", "a")
     local function add(anchor, title, heading, text)
         text = text:gsub("%s+", " ")
+        if text:match("^ ?$") then return end
         index:write(string.format("sections.push([%q, %q, %q, %q]);\n", page .. "#" .. anchor, title, heading, text))
     end
     local title, anchor, blocks = pandoc.utils.stringify(doc.meta.pagetitle), "", {}
