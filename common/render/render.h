@@ -137,6 +137,11 @@ std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& op
 std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts,
                                      const std::string& place = "");
 
+/// The causes that may make a picture of this scene black, one line each, as far as the surfaces in
+/// view and the lights tell them; nothing is rendered. Not empty.
+/// tested by  "truth: the causes of a black picture, all of them, and no others"
+std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options);
+
 /// Writes pictures and statistics, and prints a summary. Returns the exit code: 1 if a sample was
 /// not finite, 3 if a signal stopped the render before its end.
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& rendering);

@@ -7,6 +7,7 @@
 #include "common/base/text.h"
 #include "common/light/light_table.h"
 #include "common/material/basic_bsdf.h"
+#include "common/material/ggx.h"
 #include "common/material/hit.h"
 #include "common/path/sampler.h"
 #include "common/picture/drawing.h"
@@ -43,41 +44,46 @@ bool is_receiver(const Material& m) {
 struct InView {
     double pixels = 0, hits = 0, backs = 0;   // numbers of rays; those that meet a back side
     double mirrors = 0, receivers = 0;        // mirrors and glass; see is_receiver()
-    double every = 1;                         // hits for each of the
-    std::vector<std::pair<Ray, Hit>> points;  // about 1000 of them
+    std::vector<std::pair<Ray, Hit>> points;  // about 1000 of the receivers
+
+    /// Whether is(hit, sampler) is true of one of the points, each with its own random numbers.
+    template <class Is>
+    bool any(const Is& is) const {
+        Sampler sampler(SamplerType::independent, 1, 1);
+        uint32_t i = 0;
+        return std::any_of(points.begin(), points.end(), [&](const auto& point) {
+            sampler.start(0, i++);
+            return is(point.second, sampler);
+        });
+    }
 };
 InView in_view(const Scene& scene) {
     InView seen;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    int pixels = scene.width * scene.height, every = 1 + pixels / 1000, hits = 0;
-    seen.pixels = pixels, seen.every = every;
+    int pixels = scene.width * scene.height, every = 1 + pixels / 1000, receivers = 0;
     for (int i = 0; i < pixels; i++) {
         Ray ray = pixel_ray(scene, view, i);
         std::optional<Hit> hit = intersect(scene, ray);
         if (!hit) continue;
         seen.hits++, seen.backs += !hit->front;
-        seen.mirrors += is_specular(*hit->material), seen.receivers += is_receiver(*hit->material);
-        if (hits++ % every == 0) seen.points.emplace_back(ray, *hit);
+        seen.mirrors += is_specular(*hit->material);
+        if (!is_receiver(*hit->material)) continue;
+        if (receivers++ % every == 0) seen.points.emplace_back(ray, *hit);
     }
+    seen.pixels = pixels, seen.receivers = receivers;
     return seen;
 }
 
 /// Whether no light and no surface in view face each other.
 bool all_face_away(const Scene& scene, const InView& seen) {
     size_t lights = std::min<size_t>(scene.lights.size(), 64);
-    Sampler sampler(SamplerType::independent, 1, 1);
-    sampler.start(0, 0);
-    for (const auto& [ray, x] : seen.points)
+    return !scene.sky_image && !seen.any([&](const Hit& x, Sampler& sampler) {
         for (size_t l = 0; l < lights; l++) {
             LightSample y = sample_one_light(scene, l, x, sampler.u2());
-            if (is_receiver(*x.material) && y.pdf_w > 0 && dot(y.wi, x.n) > 0) return false;
+            if (y.pdf_w > 0 && dot(y.wi, x.n) > 0) return true;
         }
-    return !scene.sky_image;
-}
-
-/// m^2: the area of the scene's bounding sphere.
-double sphere_around(const Scene& scene) {
-    return 4 * std::numbers::pi * double{scene.radius} * double{scene.radius};
+        return false;
+    });
 }
 
 /// m^2: a light's power falls evenly on so large an area around p, if nothing is in its way.
@@ -86,34 +92,59 @@ double sphere_around(const Scene& scene) {
 double spread_of(const Scene& scene, size_t i, Vec3 p) {
     const Light& light = scene.lights[i];
     const LightShape& shape = scene.light_shapes[i];
-    double d = double{scene.radius};
-    if (light.type == LightType::distant) d = d / 2;
-    if (light.type == LightType::point) d = double{length(light.p - p)};
-    if (light.type == LightType::area) d = double{std::max(length(shape.centre - p), shape.radius)};
-    return 4 * std::numbers::pi * d * d;
+    float d = scene.radius;
+    if (light.type == LightType::distant) d = scene.radius / 2;
+    if (light.type == LightType::point) d = length(light.p - p);
+    if (light.type == LightType::area) d = std::max(length(shape.centre - p), shape.radius);
+    return 4 * std::numbers::pi * double{d} * double{d};
 }
 
-/// The share that each light has of all light at p, if nothing is in its way.
-std::vector<double> shares_at(const Scene& scene, Vec3 p) {
-    std::vector<double> shares;
-    for (size_t i = 0; i < scene.lights.size(); i++)
-        shares.push_back(double{light_power(scene, i)} / spread_of(scene, i, p));
-    double all = std::accumulate(shares.begin(), shares.end(), 0.0);
-    for (double& share : shares) share /= all;
-    return shares;
+/// The lights that bring more than 1 % of the light at p, if nothing is in its way; and their
+/// shares of it.
+std::vector<std::pair<size_t, double>> important_lights(const Scene& scene, Vec3 p) {
+    std::vector<std::pair<size_t, double>> lights;
+    double all = 0;
+    auto light_of = [&](size_t i) {
+        return double{light_power(scene, i)} / spread_of(scene, i, p);
+    };
+    for (size_t i = 0; i < scene.lights.size(); i++) all += light_of(i);
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        if (light_of(i) > 0.01 * all) lights.push_back({i, light_of(i) / all});
+    }
+    return lights;
 }
 
-/// Whether an important light is so small that fewer than `few` random directions hit it: in a
-/// closed room each part of the walls is hit in proportion to its area, at most the area of the
-/// scene's bounding sphere.
-bool has_small_light(const Scene& scene, double directions, double few) {
-    std::vector<double> shares = shares_at(scene, scene.camera.o);
-    for (size_t i = 0; i < shares.size(); i++) {
-        bool is_important = scene.lights[i].type != LightType::infinite && shares[i] > 0.01;
-        double hits = directions * double{scene.light_shapes[i].area} / sphere_around(scene);
-        if (is_important && hits < few) return true;
+/// Whether an important light is so small that random hits are too rare: in a closed room each part
+/// of the walls is hit in proportion to its area, at most the area of the scene's bounding sphere.
+bool has_rare_light(const Scene& scene, double samples) {
+    double R = double{scene.radius}, sphere = 4 * std::numbers::pi * R * R;
+    for (auto [light, share] : important_lights(scene, scene.camera.o)) {
+        bool is_area = scene.lights[light].type == LightType::area;
+        double area = double{scene.light_shapes[light].area};
+        if (is_area && samples * area / sphere < few_hits) return true;
     }
     return false;
+}
+
+/// The outlines of all surfaces of which material they are, about, and their middle.
+struct Outlines {
+    double area = 0;  // m^2
+    Vec3 middle;
+};
+template <class Is>
+Outlines outlines_of(const Scene& scene, const Is& is) {
+    Outlines all;
+    auto shape_of = [](const auto& primitive) { return primitive.shape; };
+    for (uint32_t i = 0; i < scene.geometry.size(); i++) {
+        uint32_t shape = visit(scene.geometry, i, shape_of, shape_of, shape_of);
+        if (!is(scene.materials[scene.shapes[shape].material])) continue;
+        Emitter e = emitter_of(scene, i);
+        float area = area_of(e) / 4;
+        all.area += double{area};
+        all.middle += area * e.p0;
+    }
+    all.middle = all.middle / static_cast<float>(all.area);
+    return all;
 }
 
 /// Whether metal is so smooth that its lobe rarely leads `paths` paths to a light.
@@ -124,119 +155,194 @@ bool has_small_light(const Scene& scene, double directions, double few) {
 ///
 ///   hits = N (alpha^2 + size),   size = A / (4 pi d^2)
 ///
-/// Here each of the two terms alone must be too small; for the second see has_small_light().
+/// Here each of the two terms alone must be too small.
 /// Measured with a metal plate beside a floor, a lamp of 0.5 to 9 degrees and alpha from 0.001 to
 /// 0.1: intervals cover the truth in 10 to 87 % of the runs for hits up to 8, in 93 % and more from
 /// 25 on.
 bool is_nearly_mirror(const Material& m, double paths) {
     double alpha = double{m.alpha};
-    bool is_smooth = alpha < 0.1 && paths * alpha * alpha < few_reflections;
-    return is_smooth && is_rough(m) && is_receiver(m);
+    return is_rough(m) && is_receiver(m) && paths * alpha * alpha < few_reflections;
+}
+
+/// About the share of the picture's light that first hits metal that is nearly a mirror, from
+/// lights so small that too few of its reflections hit them. hits_lights: whether BSDF samples
+/// count, or light samples alone.
+double share_on_smooth_metal(const Scene& scene, double paths, bool hits_lights) {
+    Outlines metal =
+        outlines_of(scene, [&](const Material& m) { return is_nearly_mirror(m, paths); });
+    if (metal.area == 0) return 0;
+    if (scene.sky_image) return 1;  // it may hold a sun
+    Vec3 to_camera = scene.camera.o - metal.middle;
+    double in_view = 4 * std::numbers::pi * double{dot(to_camera, to_camera)}, sum = 0;
+    for (auto [light, share] : important_lights(scene, metal.middle)) {
+        double spread = spread_of(scene, light, metal.middle), size = 0;
+        if (scene.lights[light].type == LightType::infinite) continue;
+        if (hits_lights) size = double{scene.light_shapes[light].area} / spread;
+        if (paths * size < few_reflections)
+            sum += share * std::min(1.0, metal.area / std::min(spread, in_view));
+    }
+    return sum;
 }
 
 /// Whether a surface in view faces another one that reflects light.
 bool surfaces_face_each_other(const Scene& scene, const InView& seen) {
-    Sampler sampler(SamplerType::independent, 1, 1);
-    uint32_t i = 0;
-    return std::any_of(seen.points.begin(), seen.points.end(), [&](const auto& point) {
-        const Hit& x = point.second;
-        sampler.start(0, i++);
+    return seen.any([&](const Hit& x, Sampler& sampler) {
         Vec3 wi = Frame(x.n).to_world(sample_cosine_hemisphere(sampler.u2()));
         std::optional<Hit> y = intersect(scene, spawn_ray(x, wi));
-        return is_receiver(*x.material) && y && is_receiver(*y->material);
+        return y && is_receiver(*y->material);
     });
 }
 
-/// Of the light to those materials that the camera sees, from some lights, if nothing is in its
-/// way: the share that so few of `paths` paths carry that each carries more than a tenth of it. The
-/// area is about that of all pixels, if each shows as much as the median of them.
-double share_by_few_paths(const Scene& scene, const InView& seen, double paths,
-                          const std::function<bool(const Material&)>& is_to,
-                          const std::function<bool(const Light&)>& is_from) {
+/// Whether a flat lamp is so near to a surface in view that it is no point: within twice the radius
+/// of a disk of its area. Below a disk a point is 25 % too bright there, and more if nearer.
+bool lamps_are_near(const Scene& scene, const InView& seen) {
+    return seen.any([&](const Hit& x, Sampler&) {
+        auto is_near = [&](const LightShape& lamp) {
+            return lamp.flat && length(lamp.centre - x.p) < 2 * std::sqrt(lamp.area / pi);
+        };
+        return std::any_of(scene.light_shapes.begin(), scene.light_shapes.end(), is_near);
+    });
+}
+
+/// The probabilities with which chapter 20 starts paths: at the lights, as in chapter 11; then at
+/// the pixels of the sky's image, by their light.
+std::vector<double> starts_of(const Scene& scene) {
+    std::vector<double> pmf = light_pmf(scene, 0.25), sky;
+    for (size_t i = 0; scene.sky_image && i < scene.sky_image->pixels.size(); i++) {
+        float angle = solid_angle_per_area(*scene.sky_image, scene.sky_image->middle_of(i));
+        sky.push_back(double{angle * average(scene.sky_image->pixels[i])});
+    }
+    double all = std::accumulate(sky.begin(), sky.end(), 0.0), share = pmf.empty() ? 1 : 0.5;
+    if (all == 0) return pmf;
+    for (double& p : pmf) p *= 1 - share;
+    for (double p : sky) pmf.push_back(share * p / all);
+    return pmf;
+}
+
+/// The part of the picture's mean that hardly any path from a light finds: the direct light of
+/// those places in view that the fewest paths reach, together fewer than few_paths. A light sample
+/// at each place tells how many of `paths` paths from that light reach it.
+double light_by_few_paths(const Scene& scene, const InView& seen, double paths) {
+    constexpr uint32_t tries = 4;
+    std::vector<double> pmf = starts_of(scene), cdf(pmf.size());
+    std::partial_sum(pmf.begin(), pmf.end(), cdf.begin());
+    if (scene.max_depth == 0 || pmf.empty()) return 0;
     CameraView view = camera_view(scene.camera, scene.width, scene.height);
     Vec3 pixel = cross(view.dx, view.dy);
-    std::vector<std::pair<double, size_t>> areas;  // of a pixel; number of the point
-    for (size_t i = 0; i < seen.points.size(); i++) {
-        const auto& [ray, x] = seen.points[i];
+    double pixels = seen.receivers / static_cast<double>(tries * seen.points.size());  // of a place
+    std::vector<std::pair<double, double>> places;  // paths that reach it; its light
+    Sampler sampler(SamplerType::independent, 1, 1);
+    for (uint32_t i = 0; i < tries * seen.points.size(); i++) {
+        const auto& [ray, x] = seen.points[i / tries];
+        sampler.start(0, i);
+        double u = to_unit_double(sampler.u2());
+        auto light =
+            static_cast<size_t>(std::upper_bound(cdf.begin(), cdf.end() - 1, u) - cdf.begin());
+        LightSample y;
+        float power = pi * scene.radius * scene.radius;
+        if (light < scene.lights.size()) {
+            y = sample_one_light(scene, light, x, sampler.u2());
+            power = light_power(scene, light);
+        } else {
+            const SkyImage& sky = *scene.sky_image;
+            Vec2 uv = sky.point_in(light - scene.lights.size(), sampler.u2());
+            float all = static_cast<float>(sky.pixels.size());
+            y = {direction_of(sky, uv), sky.at(uv), infinity, all / solid_angle_per_area(sky, uv)};
+            power *= average(y.Le) / y.pdf_w;
+        }
+        float cos_x = dot(y.wi, x.n);
+        if (y.pdf_w == 0 || cos_x <= 0 || occluded(scene, spawn_ray(x, y.wi, y.dist))) continue;
+        // A path carries power / pmf; this place has this area, and this is its irradiance.
         float a = dot(pixel, ray.d), b = a / dot(pixel, view.corner);  // a b^2: its solid angle
-        float area = std::abs(a / dot(ray.d, x.ng)) * b * b * x.t * x.t;
-        if (is_to(*x.material)) areas.emplace_back(area, i);
+        double area = pixels * double{std::abs(a / dot(ray.d, x.ng)) * b * b * x.t * x.t};
+        double E = double{average(y.Le) * cos_x / y.pdf_w};
+        Rgb L = glossy_bsdf::eval_bsdf(x, -ray.d, y.wi) * y.Le * (cos_x / y.pdf_w);
+        places.emplace_back(paths * E * area / double{power},
+                            pixels / seen.pixels * double{average(L)} / pmf[light]);
     }
-    if (areas.empty()) return 0;
-    std::sort(areas.begin(), areas.end());
-    auto [area, median] = areas[areas.size() / 2];
-    area *= static_cast<double>(areas.size()) * seen.every;
-    Vec3 middle = seen.points[median].second.p;
-    Light image;  // of the sky
-    image.type = LightType::infinite;
-    bool has_image = scene.sky_image && is_from(image);
-    if (has_image && paths * area < few_paths * sphere_around(scene)) return 1;
+    std::sort(places.begin(), places.end());
+    double reached = 0, light = 0;
+    for (auto [here, L] : places) {
+        reached += here;
+        if (reached < few_paths) light += L;
+    }
+    return light;
+}
 
-    std::vector<double> pmf = light_pmf(scene, 0.25), shares = shares_at(scene, middle);
-    double all = 0, by_few = 0;
-    for (size_t i = 0; i < pmf.size(); i++) all += is_from(scene.lights[i]) ? shares[i] : 0;
-    for (size_t i = 0; i < pmf.size(); i++) {
-        double hit = std::min(1.0, area / spread_of(scene, i, middle)), share = shares[i] / all;
-        if (is_from(scene.lights[i]) && paths * pmf[i] * hit < few_paths * share) by_few += share;
+/// The share of the light of point and distant lights to mirrors, glass and metal that is nearly a
+/// mirror that few paths carry.
+double share_by_few_paths_to_mirrors(const Scene& scene, double paths) {
+    if (scene.max_depth < 2) return 0;
+    Outlines mirrors = outlines_of(
+        scene, [&](const Material& m) { return is_specular(m) || is_nearly_mirror(m, paths); });
+    if (mirrors.area == 0) return 0;
+    std::vector<double> pmf = starts_of(scene);
+    double few = 0, all = 0;
+    for (size_t i = 0; i < scene.lights.size(); i++) {
+        LightType type = scene.lights[i].type;
+        if (type != LightType::distant && type != LightType::point) continue;
+        double hit = std::min(1.0, mirrors.area / spread_of(scene, i, mirrors.middle));
+        double power = hit * double{light_power(scene, i)};
+        all += power;
+        if (paths * pmf[i] * hit < few_paths) few += power;
     }
-    return by_few;
+    return all > 0 ? few / all : 0;
+}
+
+/// The share of the picture that shows metal that is nearly a mirror.
+double share_of_smooth_metal(const InView& seen, double paths) {
+    double metal = 0, points = static_cast<double>(seen.points.size());
+    for (const auto& [ray, x] : seen.points) metal += is_nearly_mirror(*x.material, paths);
+    return points > 0 ? metal / points * seen.receivers / seen.pixels : 0;
 }
 
 /// Light that this chapter's search misses in the scene, or finds too rarely for its reported error
 /// to be true. It follows from sizes and distances of lights and materials, what rays through the
 /// pixels meet, and the number of samples. Photons find all light, but blur it.
 Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film) {
-    using enum LightSearch;
-    const double samples = static_cast<double>(film.samples()), mean = film.mean(),
-                 error = film.standard_error();
     auto any_material = [&](auto is) {
         return std::any_of(scene.shapes.begin(), scene.shapes.end(),
                            [&](const Shape& s) { return is(scene.materials[s.material]); });
     };
+    auto any_light = [&](auto... types) {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [&](const Light& light) { return (... || (light.type == types)); });
+    };
     auto is_metal = [](const Material& m) {
         return is_receiver(m) && m.type != MaterialType::diffuse;
     };
-    auto is_smooth_metal = [&](const Material& m) { return is_nearly_mirror(m, samples); };
-    auto is_delta = [](const Light& light) {
-        return light.type == LightType::point || light.type == LightType::distant;
-    };
-    bool has_delta = false, has_area = false, is_near = false;
-    for (const Light& light : scene.lights) {
-        has_delta |= is_delta(light);
-        has_area |= light.type == LightType::area;
-    }
+    const double samples = static_cast<double>(film.samples()), mean = film.mean(),
+                 error = film.standard_error();
+    const int depth = scene.max_depth;
     const bool mirrors = any_material(is_specular), receivers = any_material(is_receiver),
-               casts = mirrors && receivers && scene.max_depth > 1;
-    const bool starts_at_lights = o.search == both_ends || o.search == merging;
-    const bool looks = o.search == from_lights || o.search == direct || starts_at_lights;
-    const InView seen = looks ? in_view(scene) : InView{};
+               casts = mirrors && receivers && depth > 1,
+               has_delta = any_light(LightType::point, LightType::distant),
+               has_area = any_light(LightType::area);
     const std::string larger = "the true error may be larger than the reported one",
                       at_random = "found only by random hits: " + larger,
                       is_left_out =
                           "from a point or distant light is left out: no path can hit such a light",
                       by_mirrors = "light that reaches a surface through mirrors or glass ";
+    using enum LightSearch;
     Lines lines;
 
-    lines.warn(o.search == random_hits && !has_delta && has_small_light(scene, samples, few_hits),
+    lines.warn(o.search == random_hits && has_rare_light(scene, samples),
                "this chapter finds lights only by random hits, and one is so small that few paths "
                "hit it: " +
                    larger);
 
     if (o.search == from_lights) {
-        double metal = 0, share = seen.mirrors / seen.pixels;
-        for (const auto& [ray, x] : seen.points) metal += is_smooth_metal(*x.material);
-        metal *= seen.every / seen.pixels;
-        double few = share_by_few_paths(scene, seen, samples, is_receiver,
-                                        [](const Light&) { return true; });
-        bool is_missing = few > 0 && few * mean >= 2 * error * (1 - few);
-        lines.warn(o.paths.empty() && metal * mean > error,
+        InView seen = in_view(scene);
+        double metal = share_of_smooth_metal(seen, samples), share = seen.mirrors / seen.pixels;
+        bool all = o.paths.empty();
+        lines.warn(all && metal * mean > error,
                    percent(metal) +
                        " of the picture shows metal that is nearly a mirror: few paths from a "
                        "light leave it towards the camera, so " +
                        larger);
-        lines.warn(o.paths.empty() && scene.max_depth > 0 && is_missing,
-                   "so few paths from a light reach what the camera sees that its light may be "
-                   "missing: " +
+        lines.warn(all && light_by_few_paths(scene, seen, samples) > 2 * error,
+                   "so few paths from a light reach a part of what the camera sees that its light "
+                   "may be missing: " +
                        larger);
         lines.warn(share > 0, percent(share) +
                                   " of the picture shows a mirror or glass: this part is black, "
@@ -245,41 +351,36 @@ Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film)
 
     if (o.search == light_sampling) {
         // By default, chapter 13 samples lights only; later chapters also sample the metal's BSDF.
+        // What surfaces in view receive from metal may be ten times its share of all light.
         Notes::value_type by_light = {"strategy", "light"};
-        bool is_rare = std::count(o.own.begin(), o.own.end(), by_light) > 0 || scene.sky_image ||
-                       has_small_light(scene, samples, few_reflections);
-        lines.warn(is_rare && any_material(is_smooth_metal),
+        bool alone = std::count(o.own.begin(), o.own.end(), by_light) > 0;
+        double hidden = receivers ? 10 * share_on_smooth_metal(scene, samples, !alone) * mean : 0;
+        lines.warn(hidden > 0 && !(hidden <= error),
                    "light that reaches a surface via nearly smooth metal is " + at_random);
         lines.warn(casts && has_delta, by_mirrors + is_left_out);
         lines.warn(casts && (has_area || scene.sky_image), by_mirrors + "is " + at_random);
     }
 
-    if (o.search == direct && scene.max_depth > 0) {
-        // Below a disk, at twice its radius, a point is 25 % too bright, and more if nearer.
-        for (const LightShape& lamp : scene.light_shapes)
-            for (const auto& [ray, x] : seen.points)
-                is_near |= lamp.flat && length(lamp.centre - x.p) < 2 * std::sqrt(lamp.area / pi);
+    if (o.search == direct && depth > 0) {
+        InView seen = in_view(scene);
         lines.warn(scene.sky_light >= 0 && receivers,
                    "light that surfaces receive from the sky is left out: the sky is seen only "
                    "directly and in mirrors");
-        lines.warn(is_near,
+        lines.warn(lamps_are_near(scene, seen),
                    "a lamp near a surface lights it as if all came from the lamp's middle: the "
                    "reported error does not include this");
-        lines.warn(scene.max_depth > 1 && !mirrors && surfaces_face_each_other(scene, seen),
+        lines.warn(depth > 1 && !mirrors && surfaces_face_each_other(scene, seen),
                    "light that one surface reflects to another is left out");
         lines.warn(casts, by_mirrors +
                               "is left out, and so is light that one surface reflects to another");
     }
 
-    if (starts_at_lights) {
-        auto casts_light = [&](const Material& m) { return is_specular(m) || is_smooth_metal(m); };
-        double few = share_by_few_paths(scene, seen, samples, casts_light, is_delta);
-        bool is_seen =
-            casts && scene.max_depth > 2 && (o.search == both_ends || any_material(is_metal));
+    if (o.search == both_ends || o.search == merging) {
         const std::string both =
             "light that goes through mirrors or glass to a surface that the camera sees in mirrors "
             "or glass ";
-        lines.warn(receivers && scene.max_depth > 1 && few > 0.01,
+        bool is_seen = casts && depth > 2 && (o.search == both_ends || any_material(is_metal));
+        lines.warn(receivers && share_by_few_paths_to_mirrors(scene, samples) > 0.01,
                    "hardly any path from a point or distant light hits a mirror, glass or smooth "
                    "metal: the light that these cast on surfaces may be missing");
         lines.warn(is_seen && has_delta, both + is_left_out);
@@ -289,6 +390,38 @@ Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film)
 }
 
 }  // namespace
+
+std::vector<std::string> causes_of_black(const Scene& scene, const RenderOptions& options) {
+    Lines lines;
+    InView seen = in_view(scene);
+    bool is_deep = seen.hits > 0 && scene.max_depth > 0, all_mirrors = seen.mirrors == seen.hits,
+         all_black = seen.mirrors + seen.receivers == 0;
+    bool away = is_deep && seen.receivers > 0 && all_face_away(scene, seen);
+    auto shines = [](const Light& light) { return light.type == LightType::area && light.at; };
+    auto lamp = std::find_if(scene.lights.begin(), scene.lights.end(), shines);
+    std::string place;
+    if (lamp != scene.lights.end()) place = " (" + printable(place_text(*lamp->at)) + ")";
+    lines.warn(!options.paths.empty(), "--paths keeps no class of path that brings light");
+    lines.warn(seen.hits == 0, "the camera sees no surface: see its LookAt, fov and Scale");
+    lines.warn(seen.hits > 0 && scene.max_depth == 0,
+               "with a depth of 0 only lights themselves are seen, and none is in view");
+    lines.warn(is_deep && seen.backs == seen.hits,
+               "all that the camera sees it sees from behind: it may be inside something");
+    lines.warn(is_deep && all_mirrors,
+               "the camera sees mirrors and glass alone, and no light in them");
+    lines.warn(is_deep && all_black, "all surfaces in view are black: they reflect nothing");
+    lines.warn(away, "the lights and all that is in view face away from each other" + place +
+                         ": ReverseOrientation turns a light, \"bool twosided\" true lights both "
+                         "sides");
+    lines.warn(
+        is_deep && !all_mirrors && !all_black && !away,
+        options.search == LightSearch::random_hits
+            ? "this chapter finds lights only by random hits: more samples find them, or a "
+              "chapter that samples lights (from 09 on)"
+            : "too few paths find a way from the lights to what is in view: more samples, or "
+              "a chapter that finds light in another way");
+    return lines;
+}
 
 std::vector<std::string> warnings_of(const Film& film, const SampleCounts& counts,
                                      const std::string& place) {
@@ -335,15 +468,10 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
 std::vector<std::string> warnings_of(const Scene& scene, const RenderOptions& options,
                                      const Rendering& r) {
     const std::optional<SampleAt>& at = r.stats.largest_at;
-    Lines lines{warnings_of(r.film, r.stats, at ? ": see --explain " + at->text() : "")};
-    if (r.film.samples() > 0 && r.film.mean() == 0) {
-        InView seen = in_view(scene);
-        lines.warn(seen.hits == 0,
-                   "possible cause: the camera sees no surface: see its LookAt, fov and Scale");
-        lines.warn(seen.receivers > 0 && all_face_away(scene, seen),
-                   "possible cause: the lights and all that is in view face away from each other: "
-                   "ReverseOrientation turns a light, \"bool twosided\" true lights both sides");
-    }
+    auto lines = warnings_of(r.film, r.stats, at ? ": see --explain " + at->text() : "");
+    if (r.film.samples() > 0 && r.film.mean() == 0)
+        for (const std::string& cause : causes_of_black(scene, options))
+            lines.push_back("possible cause: " + cause);
     for (const std::string& line : missed_light(scene, options, r.film)) lines.push_back(line);
     lines.insert(lines.end(), r.warnings.begin(), r.warnings.end());
     return lines;

@@ -69,6 +69,7 @@ const std::string point = "LightSource \"point\" \"point3 from\" [0 5 0]\n",
 std::string camera(const std::string& look = "0 2 -4  0 0.3 0  0 1 0") {
     return "LookAt " + look + "\nCamera \"perspective\" \"float fov\" 30\nWorldBegin\n";
 }
+const std::string from_above = camera("0 3 0  0 0 0  0 0 1");
 /// A scene of 16 x 16 pixels.
 Scene seen(const std::string& world, const std::string& view = camera()) {
     Scene scene = scene_of(view + world);
@@ -235,22 +236,36 @@ TEST_SUITE("warnings") {
         CHECK(is_told("0.01", "0.02", 16, "0 0 0") == std::pair(false, false));
     }
 
-    TEST_CASE("truth: a black picture that shows nothing, or only what faces away, says so") {
-        const std::string black_picture = "the picture is black", nothing = "sees no surface",
-                          away = "the lights and all that is in view face away from each other";
-        auto causes = [&](const std::string& world, const std::string& view = camera()) {
-            Rendering r{film_with(2, [](size_t, int) { return 0; }), {}, {}, 0, {"its own"}};
-            return warnings_of(seen(world, view), {}, r);
+    TEST_CASE("truth: the causes of a black picture, all of them, and no others") {
+        auto causes = [](Scene scene, LightSearch search = LightSearch::light_sampling,
+                         int depth = 5, const std::string& paths = "") {
+            RenderOptions options;
+            options.search = search, options.paths = paths;
+            scene.max_depth = depth;
+            return causes_of_black(scene, options);
         };
-        const std::string lit = grey_floor + small_lamp;
-        // What a chapter has to say of its own comes last.
-        CHECK(are(causes(lit), {black_picture, "its own"}));
+        const std::string between = "too few paths find a way from the lights to what is in view",
+                          away = "the lights and all that is in view face away from each other";
+        const Scene lit = seen(grey_floor + small_lamp);
+        CHECK(are(causes(lit), {between}));
+        CHECK(are(causes(lit, LightSearch::random_hits), {"finds lights only by random hits"}));
+        CHECK(are(causes(lit, LightSearch::direct, 5, "LDE"), {"--paths keeps no", between}));
+        CHECK(are(causes(lit, LightSearch::direct, 0), {"with a depth of 0 only lights"}));
+        CHECK(are(causes(seen(grey_floor + small_lamp, camera("0 2 -4  0 9 0  0 1 0"))),
+                  {"the camera sees no surface"}));
         CHECK(
-            are(causes(lit, camera("0 2 -4  0 9 0  0 1 0")), {black_picture, nothing, "its own"}));
-        CHECK(are(causes(grey_floor + sky), {black_picture, "its own"}));
-        // Lights below the floor, and a lamp that faces away.
-        for (const std::string& below :
-             {std::string("LightSource \"point\" \"point3 from\" [0 -5 0]\n"), turned_lamp})
-            CHECK(are(causes(grey_floor + below), {black_picture, away, "its own"}));
+            are(causes(seen(in(black, floor_2) + small_lamp)), {"all surfaces in view are black"}));
+        CHECK(are(causes(seen(in(mirror, floor_2) + small_lamp, from_above)),
+                  {"the camera sees mirrors and glass alone"}));
+        CHECK(are(causes(seen(small_lamp + in(diffuse, ball("0 2 -4", "1")))),
+                  {"it may be inside something", away}));
+        // Lights below the floor, a lamp that faces away, and skies, which never do.
+        CHECK(are(causes(seen("LightSource \"point\" \"point3 from\" [0 -5 0]\n" + grey_floor)),
+                  {away}));
+        CHECK(are(causes(seen(grey_floor + turned_lamp)), {away + " (test.pbrt:11:34): Reverse"}));
+        CHECK(are(causes(seen(grey_floor + sky)), {between}));
+        // What a chapter has to say of its own comes last.
+        Rendering r{film_with(2, [](size_t, int) { return 0; }), {}, {}, 0, {"its own"}};
+        CHECK(are(warnings_of(lit, {}, r), {"the picture is black", between, "its own"}));
     }
 }
