@@ -243,7 +243,7 @@ TEST_SUITE("textures") {
             bool is_read;
         } cases[] = {
             {2, 2, {2e14f, 0, 0}, "", true},
-            {2, 2, {3e14f, 0, 0}, "", false},
+            {2, 2, {6e14f, 0, 0}, "", false},
             {2, 2, {1, -1, 1}, "", false},
             {3, 2, some, "", false},
             {2, 4, some, "", false},
