@@ -19,13 +19,6 @@ std::vector<NamedMethod> that_sample_lights(const Scene& scene, bool all = true)
     return methods;
 }
 
-/// A float with all its digits, as a scene file has it.
-std::string digits(double x) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", x);
-    return text;
-}
-
 /// A small white square around the origin, facing +y, under black lights of radiance 1. So small,
 /// that its points are known to better than 1e-9, however near the light is.
 Scene patch_under(const std::string& light) {
@@ -42,7 +35,7 @@ std::string triangles(const std::string& indices, double h, const std::vector<Ve
     std::string text =
         "Shape \"trianglemesh\" \"integer indices\" [" + indices + "] \"point3 P\" [";
     for (Vec2 p : corners) {
-        for (double x : {double{p.x}, h, double{p.y}}) text += digits(x) + " ";
+        for (double x : {double{p.x}, h, double{p.y}}) text += digits(x, 9) + " ";
     }
     return text + "]\n";
 }
@@ -153,12 +146,13 @@ TEST_SUITE("law: near lights") {
                 // Where the rim is, is known to 6e-8: right under it no better than to 6e-8 / h.
                 if (d == 1 && h < 1e-4) continue;
                 CAPTURE(d);
-                Scene scene = patch_under("Translate " + digits(d) + " " + digits(h) +
+                Scene scene = patch_under("Translate " + digits(d, 9) + " " + digits(h, 9) +
                                           " 0 Rotate 90 1 0 0 Shape \"disk\"\n");
                 check_near(scene, h, irradiance_of_disk(h, d), 1e-2);
             }
         for (double gap : {0.3, 0.01, 1e-3, 1e-4, 3e-6}) {
-            Scene scene = patch_under("Translate 0 " + digits(1 + gap) + " 0 Shape \"sphere\"\n");
+            Scene scene =
+                patch_under("Translate 0 " + digits(1 + gap, 9) + " 0 Shape \"sphere\"\n");
             double centre = double{scene.geometry.spheres[0].c.y};
             check_near(scene, gap, pi_exact / (centre * centre), 1e-2);
         }
