@@ -4,15 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/base/hash.h"
 #include "common/base/vec.h"
-
-/// Scrambles the bits of x; a bijection.      source  Wellons 2018, "lowbias32"
-inline uint32_t hash32(uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-inline uint32_t hash32(uint32_t a, uint32_t b) { return hash32(a ^ hash32(b + 0x9e3779b9u)); }
 
 /// Scrambles 64 bits; a bijection.      source  Stafford 2011, "Mix13"; Steele, Lea, Flood 2014
 inline uint64_t hash64(uint64_t x) {

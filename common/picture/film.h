@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/path/sampler.h"
+#include "common/base/hash.h"
 #include "common/picture/image.h"
 
 /// The samples of one pixel so far: their number, the sum of each channel, and the sum of the

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/hash.h"
 #include "common/base/stats.h"
 #include "common/base/vec.h"
-#include "common/path/sampler.h"
 #include "common/scene/camera.h"
 #include "common/scene/prepare.h"
 #include "common/scene_file/reader.h"

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "common/path/sampler.h"
+#include "common/base/hash.h"
 #include "tests/known/scenes.h"
 #include "tests/known/words.h"
 
