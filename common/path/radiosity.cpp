@@ -76,14 +76,12 @@ std::vector<char> find_lit_sides(const Scene& scene, bool& closed, int threads) 
     }
     for (bool changed = true; changed;) {
         changed = false;
-        auto reach = [&](size_t from, size_t to) {
-            if (!lit[from] || !sends[from] || lit[to]) return;
-            lit[to] = changed = true;
-        };
         for (size_t a = 0; a < outside; a++) {
-            for (uint32_t b : seen[a]) {
-                reach(a, b);
-                reach(b, a);  // rays from b may miss a small side
+            for (size_t b : seen[a]) {
+                // Also back from b, whose rays may miss a small side.
+                bool arrives = (lit[a] && sends[a]) || (lit[b] && sends[b]);
+                changed |= arrives && !(lit[a] && lit[b]);
+                if (arrives) lit[a] = lit[b] = true;
             }
         }
     }
