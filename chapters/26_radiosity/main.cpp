@@ -7,8 +7,7 @@ int main(int argc, char** argv) {
     return run_program([&] {
         ch26::Settings s;
         std::vector<Option> own = {
-            whole_option("patches", "N", "at least so many, beside those of spheres and disks", 1,
-                         16000, s.patches),
+            whole_option("patches", "N", "at least so many", 1, 16000, s.patches),
             choice_option("solver", "KIND",
                           "southwell (default: progressive), gauss-seidel or jacobi",
                           {"southwell", "gauss-seidel", "jacobi"}, s.solver),
@@ -27,7 +26,6 @@ int main(int argc, char** argv) {
         Scene scene = load(options, features_of(26));
         if (options.spp == 0) scene.spp = std::min(scene.spp, 16);  // for edges alone
         refuse(scene);
-        s.patches += tessellate(scene, options.threads);
         return ch26::run(scene, options, s);
     });
 }

@@ -57,7 +57,7 @@ inline size_t choose_k(const std::vector<char>& lit, float h, std::vector<Divisi
 }
 
 /// At least `wanted` patches, all about alike in size, where light can reach.
-/// The scene consists of triangles alone (see tessellate()).
+/// The scene consists of triangles alone (see refuse()).
 /// tested by  "identity: patches cover what has light, and each point finds its patch"
 inline Patches make_patches(const Scene& scene, size_t wanted, int threads) {
     Patches patches;

@@ -81,19 +81,16 @@ public:
         : material_(material),
           roots_{pack(reflectance.r), pack(reflectance.g), pack(reflectance.b)} {}
 
-    MaterialAt& operator=(const Material* material) {  // the texture stays
-        material_ = material;
-        return *this;
-    }
-
     /// All of the material, as it is at the point.
     struct Here : Material {
         const Here* operator->() const { return this; }
     };
     Here operator->() const {
         Here here = {*material_};
-        if (here.texture != 0) [[unlikely]]
-            vary(here);
+        if (here.texture != 0) [[unlikely]] {
+            here.reflectance = {unpack(roots_[0]), unpack(roots_[1]), unpack(roots_[2])};
+            if (here.type == MaterialType::conductor) here.k = k_of_reflectance(here.reflectance);
+        }
         return here;
     }
     operator const Material*() const { return material_; }
@@ -103,10 +100,6 @@ private:
     static float unpack(uint16_t root) {
         float x = static_cast<float>(root) / 65535;
         return x * x;
-    }
-    void vary(Material& here) const {
-        here.reflectance = {unpack(roots_[0]), unpack(roots_[1]), unpack(roots_[2])};
-        if (here.type == MaterialType::conductor) here.k = k_of_reflectance(here.reflectance);
     }
 
     const Material* material_;

@@ -9,65 +9,6 @@
 
 namespace {
 
-void add_triangle(Geometry& g, Vec3 a, Vec3 b, Vec3 c, uint32_t shape) {
-    uint32_t first = static_cast<uint32_t>(g.positions.size());
-    for (Vec3 p : {a, b, c}) {
-        g.positions.push_back(p);
-        if (!g.normals.empty()) g.normals.push_back({});  // flat
-    }
-    g.triangles.push_back({{first, first + 1, first + 2}, shape});
-}
-
-/// Cuts a triangle of the unit sphere in four, `depth` times.
-void divide_on_sphere(Vec3 a, Vec3 b, Vec3 c, int depth, std::vector<Corners>& parts) {
-    if (depth == 0) return parts.push_back({a, b, c});
-    Vec3 d = normalize(b + c), e = normalize(c + a), f = normalize(a + b);
-    divide_on_sphere(a, f, e, depth - 1, parts);
-    divide_on_sphere(f, b, d, depth - 1, parts);
-    divide_on_sphere(e, d, c, depth - 1, parts);
-    divide_on_sphere(d, e, f, depth - 1, parts);
-}
-
-/// 512 triangles with the area of the sphere: an octahedron, divided.
-void add_sphere(Geometry& g, const Sphere& sphere, bool inwards) {
-    constexpr int depth = 3;
-    std::vector<Corners> parts;
-    for (int octant = 0; octant < 8; octant++) {
-        Vec3 a = {octant & 1 ? -1.0f : 1.0f, 0, 0}, b = {0, octant & 2 ? -1.0f : 1.0f, 0};
-        Vec3 c = {0, 0, octant & 4 ? -1.0f : 1.0f};
-        if (dot(cross(a, b), c) < 0) std::swap(b, c);  // seen from outside
-        divide_on_sphere(a, b, c, depth, parts);
-    }
-    double area = 0;
-    for (const auto& [a, b, c] : parts) area += double{length(cross(b - a, c - a))} / 2;
-    float r = sphere.r * static_cast<float>(std::sqrt(4 * std::numbers::pi / area));
-    for (auto [a, b, c] : parts) {
-        if (inwards) std::swap(b, c);
-        add_triangle(g, sphere.c + r * a, sphere.c + r * b, sphere.c + r * c, sphere.shape);
-    }
-}
-
-/// 32 triangles with the area of the disk.
-void add_disk(Geometry& g, const Disk& disk) {
-    constexpr int sides = 32;
-    constexpr double turn = 2 * std::numbers::pi / sides;
-    float r = disk.r * static_cast<float>(std::sqrt(turn / std::sin(turn)));
-    Frame frame(disk.n);
-    auto rim = [&](int i) {
-        return disk.c + frame.to_world({r * static_cast<float>(std::cos(turn * i)),
-                                        r * static_cast<float>(std::sin(turn * i)), 0});
-    };
-    for (int i = 0; i < sides; i++)
-        add_triangle(g, disk.c, rim(i), rim((i + 1) % sides), disk.shape);
-}
-
-/// Throws InputError for a shape so small that rounding its corners to floats changes its area.
-void check_size(const Scene& scene, Vec3 centre, float r, uint32_t shape) {
-    if (rounding_error(max_component(abs(centre)) + r) <= r / 20) return;
-    fail(scene.place(scene.shapes[shape].at),
-         "a sphere or disk this small cannot be cut into triangles; chapters from 09 on render it");
-}
-
 /// The sides that rays from this side meet: 2 i is the front of triangle i, 2 i + 1 its back; a
 /// number above all of them where a ray leaves the scene.
 std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
@@ -92,32 +33,6 @@ std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
 
 }  // namespace
 
-size_t tessellate(Scene& scene, int threads) {
-    Geometry& g = scene.geometry;
-    uint32_t before = static_cast<uint32_t>(g.triangles.size());
-    if (before == g.size()) return 0;
-    std::vector<uint32_t> first = {before};  // of each sphere and disk, and one more: its triangles
-    for (const Sphere& s : g.spheres) {
-        check_size(scene, s.c, s.r, s.shape);
-        add_sphere(g, s, scene.shapes[s.shape].reverse);
-        first.push_back(static_cast<uint32_t>(g.triangles.size()));
-        scene.shapes[s.shape].reverse = false;
-    }
-    for (const Disk& d : g.disks) {
-        check_size(scene, d.c, d.r, d.shape);
-        add_disk(g, d);
-        first.push_back(static_cast<uint32_t>(g.triangles.size()));
-    }
-    for (Light& light : scene.lights) {
-        if (light.type != LightType::area || light.first_prim < before) continue;
-        uint32_t i = light.first_prim - before, last = i + light.prims;
-        light.first_prim = first[i], light.prims = first[last] - first[i];
-    }
-    g.spheres.clear(), g.disks.clear();
-    prepare(scene, threads);
-    return g.triangles.size() - before;
-}
-
 void refuse(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (light.type == LightType::area) continue;
@@ -135,6 +50,13 @@ void refuse(const Scene& scene) {
         Rgb rho = m.reflectance;
         least = {std::min(least.r, rho.r), std::min(least.g, rho.g), std::min(least.b, rho.b)};
     }
+    const Geometry& g = scene.geometry;
+    auto refuse_round = [&](const auto& round) {
+        fail(scene.place(scene.shapes[round.shape].at),
+             "radiosity knows triangles alone; chapters from 05 on render spheres and disks");
+    };
+    if (!g.spheres.empty()) refuse_round(g.spheres[0]);
+    if (!g.disks.empty()) refuse_round(g.disks[0]);
     if (max_component(least) < 1) return;
     fail({scene.origin->file},
          "radiosity needs a surface that absorbs: in a closed room whose surfaces reflect all "
@@ -154,14 +76,12 @@ std::vector<char> find_lit_sides(const Scene& scene, bool& closed, int threads) 
     }
     for (bool changed = true; changed;) {
         changed = false;
-        auto reach = [&](size_t from, size_t to) {
-            if (!lit[from] || !sends[from] || lit[to]) return;
-            lit[to] = changed = true;
-        };
         for (size_t a = 0; a < outside; a++) {
-            for (uint32_t b : seen[a]) {
-                reach(a, b);
-                reach(b, a);  // rays from b may miss a small side
+            for (size_t b : seen[a]) {
+                // Also back from b, whose rays may miss a small side.
+                bool arrives = (lit[a] && sends[a]) || (lit[b] && sends[b]);
+                changed |= arrives && !(lit[a] && lit[b]);
+                if (arrives) lit[a] = lit[b] = true;
             }
         }
     }

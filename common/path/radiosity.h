@@ -1,20 +1,14 @@
-// What radiosity (chapter 26) needs of a scene: diffuse surfaces alone, triangles alone, cut into
-// small ones, and which of their sides light can reach.
+// What radiosity (chapter 26) needs of a scene: diffuse triangles alone, cut into small ones, and
+// which of their sides light can reach.
 #pragma once
 #include <array>
 
 #include "common/scene/scene.h"
 
-/// Throws InputError for all that has no radiosity: paths are LD*E, lamps have a surface, and some
-/// surface absorbs.
+/// Throws InputError for all that has no radiosity: paths are LD*E, shapes are triangles, lamps
+/// have a surface, and some surface absorbs.
 /// tested by  "input: what has no radiosity is refused, with its place in the file"
 void refuse(const Scene& scene);
-
-/// Puts meshes in place of all spheres and disks, and makes the scene ready again: 512 triangles
-/// with the area of the sphere, 32 with that of the disk. Returns how many triangles that makes.
-/// Throws InputError for a shape so small that the rounding of corners changes its area.
-/// tested by  "identity: spheres and disks made meshes keep area, power and the side that shines"
-size_t tessellate(Scene& scene, int threads);
 
 using Corners = std::array<Vec3, 3>;
 

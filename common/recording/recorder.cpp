@@ -102,7 +102,7 @@ void Recorder::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta
         beta_.resize(depth_++);
         beta_.push_back(beta);
     }
-    if (!story_ || story_->is_cut) return;  // drawn, but not followed
+    if (!story_) return;
     story_->step(
         "    goes on along wi " + to_text(wi) + ": f " + to_text(f) +
             format(" sr^-1, pdf_w %.6g%s, beta ", double{pdf_w}, specular ? " (delta)" : " sr^-1") +
@@ -112,7 +112,7 @@ void Recorder::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta
 
 void Recorder::note_roulette(float q, Rgb beta) {
     if (!at_light_) beta_[depth_ - 1] = beta;
-    if (!story_ || story_->is_cut) return;
+    if (!story_) return;
     std::string line = format("    survives roulette, q %.6g, beta ", double{q}) + to_text(beta);
     story_->step(q < 1 ? line + "\n" : "");
 }
@@ -123,9 +123,7 @@ void Recorder::note_step_back() {
 }
 
 void Recorder::note_cut() {
-    if (!story_) return;
-    story_->step("    ends: " + depth_limit(*story_) + "\n");
-    story_->is_cut = true;
+    if (story_) story_->step("    ends: " + depth_limit(*story_) + "\n");
 }
 
 std::string Recorder::class_of(std::string path_class, size_t events) const {

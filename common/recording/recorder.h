@@ -56,7 +56,6 @@ struct PathStory {
     bool gathers;  // a path may end by gathering photons, as in chapter 23
     std::string text = {};
     std::string if_last = {};  // why the path ends, if no other step follows; empty: unknown
-    bool is_cut = false;       // by the depth limit
     size_t told = 0;           // rays described so far
 
     /// Adds a line, after those about the rays traced before it.
@@ -65,7 +64,6 @@ struct PathStory {
     void step(const std::string& line, const std::string& why = "") {
         add(line);
         if_last = why;
-        is_cut = false;
     }
     /// Adds the reason why the path ended.
     void ends();

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include "common/light/light_table.h"
-#include "common/path/radiosity.h"
 #include "common/scene/mover.h"
 #include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
@@ -197,40 +196,5 @@ TEST_SUITE("scene") {
             CHECK(lit.area_up_to.size() == (two ? 2 : 0));
             if (two) CHECK(lit.area_up_to[0] == doctest::Approx(c.area / 2).epsilon(2e-5).scale(0));
         }
-    }
-
-    TEST_CASE("identity: spheres and disks made meshes keep area, power and the side that shines") {
-        // The lamps are not the first shapes, nor the last.
-        auto shining = [](const std::string& L, const std::string& shape) {
-            return "AttributeBegin AreaLightSource \"diffuse\" \"float scale\" " + L + " " + shape +
-                   " AttributeEnd\n";
-        };
-        std::string shapes = ball(".5") + square(9, false) +
-                             shining("1", "Translate 5 0 0 Shape \"disk\" \"float radius\" 2") +
-                             shining("2", "Translate 9 0 0 ReverseOrientation " + ball("1")) +
-                             shining("3", square(8, true)) + "Translate 0 0 -5 Shape \"disk\"\n";
-        Scene before = world_of(shapes), after = world_of(shapes);
-        CHECK(tessellate(after, 2) == 2 * 512 + 2 * 32);
-        CHECK(after.geometry.size() == 4 + 2 * 512 + 2 * 32);
-        for (size_t i = 0; i < 3; i++)
-            CHECK(double{light_power(after, i)} == nearly(double{light_power(before, i)}, 1e-4));
-        // All triangles shine where the shape did, and are as large in all.
-        std::map<uint32_t, double> area;
-        for (uint32_t prim = 0; prim < after.geometry.triangles.size(); prim++) {
-            Vec3 t[3];
-            for (size_t v = 0; v < 3; v++)
-                t[v] = after.geometry.positions[after.geometry.triangles[prim].v[v]];
-            Vec3 at = (t[0] + t[1] + t[2]) / 3, n = after.geometry.facet_normals[prim];
-            area[after.geometry.triangles[prim].shape] +=
-                double{length(cross(t[1] - t[0], t[2] - t[0]))} / 2 / std::numbers::pi;
-            for (float side : {1.0f, -1.0f}) {
-                Ray ray = {at + side * 0.1f * n, -side * n};
-                auto x = intersect(after, ray), y = intersect(before, ray);
-                REQUIRE((x && y));
-                CHECK(emission(after, *x) == emission(before, *y));
-            }
-        }
-        for (auto [shape, truth] : {std::pair{0u, 1}, {2u, 4}, {3u, 4}, {5u, 1}})
-            CHECK(area[shape] == nearly(truth, 1e-4));
     }
 }
