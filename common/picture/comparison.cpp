@@ -197,9 +197,9 @@ std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
         return "the pictures show different scenes, so their difference is no noise";
     const ChannelComparison& all = c.rows[0];
     if (std::isnan(all.z())) return "how sure the means are is not known";
-    std::string means, places;
+    std::string means;
     double most = 0;
-    int most_blocks = 0;
+    int blocks = 0;
     for (const ChannelComparison& row : c.rows) {
         double d = row.difference(), of_all = all.difference();
         std::string much = std::isinf(d) ? "" : percent(std::abs(d)) + " ";
@@ -211,16 +211,13 @@ std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
             means += (means.empty() ? "" : ", ") + much + (d > 0 ? "brighter" : "darker") + in;
         // Noise alone puts about one block of a million beyond 5; some more, as errors are
         // estimates.
-        if (row.beyond_5 <= std::max(2, c.blocks / 200)) continue;
-        most_blocks = std::max(most_blocks, row.beyond_5);
-        places += (places.empty() ? " in " : " and ") + std::string(row.name);
+        if (row.beyond_5 > std::max(2, c.blocks / 200)) blocks = std::max(blocks, row.beyond_5);
     }
     char z[40];
     std::snprintf(z, sizeof z, " (%.3g standard errors)", most);
     if (!means.empty()) return "other means: A is " + means + " than B" + z;
-    if (most_blocks > 0)
-        return "the same mean within the noise, but not everywhere: " +
-               std::to_string(most_blocks) + " of " + std::to_string(c.blocks) + " blocks differ" +
-               places + " by more than noise does";
+    if (blocks > 0)
+        return "the same mean within the noise, but not everywhere: " + std::to_string(blocks) +
+               " of " + std::to_string(c.blocks) + " blocks differ by more than noise does";
     return std::string("the same mean within the noise") + z;
 }
