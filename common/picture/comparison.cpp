@@ -127,7 +127,8 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
             if (!is_finite(p)) fail({name}, "not all of its pixels are finite");
 }
 
-Rgb false_colour(double x) {
+/// The colour of share x of the range, linear.
+static Rgb false_colour(double x) {
     constexpr Rgb stops[] = {{0, 0, 0},
                              {0.02f, 0.01f, 0.15f},
                              {0.2f, 0.01f, 0.25f},

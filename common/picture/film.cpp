@@ -341,20 +341,18 @@ Notes notes_in(const std::string& comment) {
 }
 
 void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
-    std::string options;
-    for (const std::string& line : lines_of(label.options)) options += line + '\n';
-    options += '\n';
-    const std::array shape = {shape_of(film)};
-    const std::array size = {label.samples.size()};
-    const std::array counts = {label.counts};
-    std::vector<std::string_view> parts = {options, bytes_of(shape), bytes_of(size),
-                                           bytes_of(label.samples), bytes_of(counts)};
-    for (const Film::Sums* sums : film.sums()) parts.push_back(bytes_of(*sums));
+    std::string bytes;
+    for (const std::string& line : lines_of(label.options)) bytes += line + '\n';
+    bytes += '\n';
+    bytes += bytes_of(shape_of(film));
+    bytes += bytes_of(std::array{uint64_t{label.samples.size()}});
+    bytes += bytes_of(label.samples);
+    bytes += bytes_of(std::array{label.counts});
+    for (const Film::Sums* sums : film.sums()) bytes += bytes_of(*sums);
     Checksum sum;
-    for (std::string_view part : parts) sum.add(part);
+    sum.add(bytes);
     write_file_atomically(path, [&](std::ostream& file) {
-        file << first_line << bytes_of(std::array{sum.value()});
-        for (std::string_view part : parts) file << part;
+        file << first_line << bytes_of(std::array{sum.value()}) << bytes;
     });
 }
 

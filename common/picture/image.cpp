@@ -259,9 +259,8 @@ std::string png_chunk(const std::string& kind_and_data) {
     return big_endian(kind_and_data.size() - 4) + kind_and_data + big_endian(crc32(kind_and_data));
 }
 
-bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
-
 std::string unpack_gzip(const std::string& path, const std::string& bytes) {
+    if (!bytes.starts_with("\x1f\x8b")) return bytes;
     constexpr size_t most = 1032, room = 1 << 14;  // times larger; what stb asks for at first
     most_memory = std::min(most_bytes, room + 2 * most * bytes.size());
     // Ten bytes, then the name of the file where a bit of the fourth says so.
