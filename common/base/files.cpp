@@ -160,8 +160,7 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
     for (const std::string& error : errors) tell(error + '\n');
 }
 
-std::string read_file(const std::string& path) {
-    constexpr size_t largest = size_t{1} << 30;
+std::string read_file(const std::string& path, size_t largest) {
     std::error_code none;
     if (fs::is_directory(file_path(path), none)) fail(path, "cannot read", EISDIR);
     errno = 0;

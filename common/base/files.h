@@ -54,7 +54,7 @@ void check_outputs(const std::vector<std::string>& files,
                    const std::vector<std::string>& inputs = {});
 
 /// The whole file; throws InputError when it is missing, a folder, or larger than 1 GiB.
-std::string read_file(const std::string& path);
+std::string read_file(const std::string& path, size_t largest = size_t{1} << 30);
 
 /// A number of 64 bits for any bytes, given piece by piece; where the pieces end does not matter.
 /// A change within eight bytes that are hashed together, such as one flipped bit, always changes

@@ -127,7 +127,8 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
             if (!is_finite(p)) fail({name}, "not all of its pixels are finite");
 }
 
-Rgb false_colour(double x) {
+/// The colour of share x of the range, linear.
+static Rgb false_colour(double x) {
     constexpr Rgb stops[] = {{0, 0, 0},
                              {0.02f, 0.01f, 0.15f},
                              {0.2f, 0.01f, 0.25f},
@@ -197,9 +198,9 @@ std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
         return "the pictures show different scenes, so their difference is no noise";
     const ChannelComparison& all = c.rows[0];
     if (std::isnan(all.z())) return "how sure the means are is not known";
-    std::string means, places;
+    std::string means;
     double most = 0;
-    int most_blocks = 0;
+    int blocks = 0;
     for (const ChannelComparison& row : c.rows) {
         double d = row.difference(), of_all = all.difference();
         std::string much = std::isinf(d) ? "" : percent(std::abs(d)) + " ";
@@ -211,16 +212,13 @@ std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
             means += (means.empty() ? "" : ", ") + much + (d > 0 ? "brighter" : "darker") + in;
         // Noise alone puts about one block of a million beyond 5; some more, as errors are
         // estimates.
-        if (row.beyond_5 <= std::max(2, c.blocks / 200)) continue;
-        most_blocks = std::max(most_blocks, row.beyond_5);
-        places += (places.empty() ? " in " : " and ") + std::string(row.name);
+        if (row.beyond_5 > std::max(2, c.blocks / 200)) blocks = std::max(blocks, row.beyond_5);
     }
     char z[40];
     std::snprintf(z, sizeof z, " (%.3g standard errors)", most);
     if (!means.empty()) return "other means: A is " + means + " than B" + z;
-    if (most_blocks > 0)
-        return "the same mean within the noise, but not everywhere: " +
-               std::to_string(most_blocks) + " of " + std::to_string(c.blocks) + " blocks differ" +
-               places + " by more than noise does";
+    if (blocks > 0)
+        return "the same mean within the noise, but not everywhere: " + std::to_string(blocks) +
+               " of " + std::to_string(c.blocks) + " blocks differ by more than noise does";
     return std::string("the same mean within the noise") + z;
 }

@@ -41,9 +41,6 @@ void check_comparable(const Image& a, const std::string& name_a, const Image& b,
 /// is set so that 1 % of the pixels are white.
 Image error_image(const Image& a, const Image& b, double& range);
 
-/// The colour of share x of the range, linear.
-Rgb false_colour(double x);
-
 /// A picture, and what is known of how it was made.
 struct Picture {
     std::string file;

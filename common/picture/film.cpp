@@ -1,19 +1,15 @@
 #include "common/picture/film.h"
 
-#include <cerrno>
-#include <fstream>
-#include <sstream>
+#include <limits>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/system.h"
 #include "common/base/text.h"
 
 namespace {
 
-/// The lines that a picture's comment and a film begin with, and what is the same in all versions.
-constexpr const char* picture_line = "picture of path-by-path";
-constexpr std::string_view any_version = "film of path-by-path, version ",
+/// The lines that a picture's comment and a film begin with.
+constexpr std::string_view picture_line = "picture of path-by-path",
                            first_line = "film of path-by-path, version 9\n";
 
 /// The values as they are in memory.
@@ -21,10 +17,12 @@ template <class Values>
 std::string_view bytes_of(const Values& values) {
     return {reinterpret_cast<const char*>(std::data(values)), std::size(values) * sizeof values[0]};
 }
+/// Reads them from the start of some bytes, and takes these away.
 template <class Values>
-void read(std::istream& file, Values& values) {
-    std::string_view bytes = bytes_of(values);
-    file.read(const_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+void read(std::string_view& bytes, Values& values) {
+    size_t size = std::min(bytes_of(values).size(), bytes.size());
+    if (size > 0) std::memcpy(std::data(values), bytes.data(), size);
+    bytes.remove_prefix(size);
 }
 
 /// What decides which sums a film has.
@@ -34,36 +32,22 @@ Shape shape_of(const Film& film) {
             film.has_halves(), film.has_batches(), film.has_audits()};
 }
 
-/// The notes, a line for each, up to an empty line or the end.
-Notes read_notes(std::istream& lines) {
+/// Takes the notes away, a line for each, up to an empty line or the end.
+Notes read_notes(std::string_view& text) {
     Notes notes;
-    for (std::string line; std::getline(lines, line) && !line.empty();) {
+    while (!text.empty()) {
+        std::string line(text.substr(0, text.find('\n')));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        if (line.empty()) break;
         size_t space = std::min(line.find(' '), line.size());
         notes.push_back({line.substr(0, space), line.substr(std::min(space + 1, line.size()))});
     }
     return notes;
 }
 
-/// The file, ready to be read after its checksum. Throws where it is not whole.
-std::ifstream whole_film(const std::string& path) {
-    errno = 0;
-    std::ifstream file(file_path(path), std::ios::binary);
-    if (!file) fail({path}, std::string("cannot read: ") + std::strerror(errno));
-    std::string line(first_line.size(), '\0'), piece(1 << 16, '\0');
-    std::array<uint64_t, 1> written = {};
-    read(file, line);
-    if (!line.starts_with(any_version)) fail({path}, "not a film");
-    if (line != first_line) fail({path}, "a film by another version of the program");
-    read(file, written);
-    Checksum sum;
-    while (file) {
-        read(file, piece);
-        sum.add(std::string_view(piece).substr(0, static_cast<size_t>(file.gcount())));
-    }
-    file.clear();
-    file.seekg(static_cast<std::streamoff>(line.size() + sizeof written));
-    if (!file || written[0] != sum.value()) fail({path}, "the film is damaged, or cut short");
-    return file;
+/// "3 to 7", or "3".
+std::string from_to(uint32_t first, uint32_t last) {
+    return std::to_string(first) + (last > first ? " to " + std::to_string(last) : "");
 }
 
 /// The ranges of both, joined where they touch. Throws where they overlap.
@@ -283,9 +267,8 @@ uint64_t Film::samples() const {
 }
 
 std::string text_of(const SampleRange& r) {
-    std::string last = r.last - 1 > r.first ? " to " + std::to_string(r.last - 1) : "";
-    return (last.empty() ? "sample " : "samples ") + std::to_string(r.first) + last + " of seed " +
-           std::to_string(r.seed);
+    const char* name = r.last - r.first > 1 ? "samples " : "sample ";
+    return name + from_to(r.first, r.last - 1) + " of seed " + std::to_string(r.seed);
 }
 
 std::string SampleAt::text() const {
@@ -307,9 +290,8 @@ std::vector<std::string> FilmLabel::missing() const {
     auto add_gap = [&](uint32_t from, uint32_t to, const SampleRange& r) {
         if (from >= to) return;
         uint32_t first = r.goal.part_of(from), last = r.goal.part_of(to - 1);
-        std::string more = last > first ? " to " + std::to_string(last) : "";
         std::string parts =
-            ", part " + std::to_string(first) + more + " of " + std::to_string(r.goal.parts);
+            ", part " + from_to(first, last) + " of " + std::to_string(r.goal.parts);
         lines.push_back("missing: " + text_of({r.seed, from, to}) +
                         (r.goal.parts > 1 ? parts : ""));
     };
@@ -331,8 +313,8 @@ Notes notes_of(const FilmLabel& label, double spp) {
     if (!label.samples.empty()) notes.push_back({"spp", json_number(spp)});
     bool from_the_start = label.samples.size() == 1 && label.samples[0].first == 0;
     for (const SampleRange& r : label.samples) {
-        std::string numbers = std::to_string(r.first) + " to " + std::to_string(r.last - 1);
-        std::string seed = std::to_string(r.seed), all = numbers + " of seed " + seed;
+        std::string seed = std::to_string(r.seed);
+        std::string all = from_to(r.first, r.last - 1) + " of seed " + seed;
         notes.push_back(from_the_start ? std::pair{"seed", seed} : std::pair{"samples", all});
     }
     return notes;
@@ -345,38 +327,46 @@ std::vector<std::string> lines_of(const Notes& notes) {
 }
 
 std::string comment_of(const Notes& notes) {
-    std::string comment = picture_line;
+    std::string comment(picture_line);
     for (const std::string& line : lines_of(notes)) comment += '\n' + line;
     return comment;
 }
 
 Notes notes_in(const std::string& comment) {
-    std::istringstream lines(comment);
-    std::string line;
-    if (!std::getline(lines, line) || line != picture_line) return {};
-    return read_notes(lines);
+    std::string_view lines = comment;
+    if (lines.substr(0, lines.find('\n')) != picture_line) return {};
+    Notes notes = read_notes(lines);
+    notes.erase(notes.begin());
+    return notes;
 }
 
 void write_film(const std::string& path, const FilmLabel& label, const Film& film) {
-    std::string options;
-    for (const std::string& line : lines_of(label.options)) options += line + '\n';
-    options += '\n';
-    const std::array shape = {shape_of(film)};
-    const std::array size = {label.samples.size()};
-    const std::array counts = {label.counts};
-    std::vector<std::string_view> parts = {options, bytes_of(shape), bytes_of(size),
-                                           bytes_of(label.samples), bytes_of(counts)};
-    for (const Film::Sums* sums : film.sums()) parts.push_back(bytes_of(*sums));
+    std::string bytes;
+    for (const std::string& line : lines_of(label.options)) bytes += line + '\n';
+    bytes += '\n';
+    bytes += bytes_of(shape_of(film));
+    bytes += bytes_of(std::array{uint64_t{label.samples.size()}});
+    bytes += bytes_of(label.samples);
+    bytes += bytes_of(std::array{label.counts});
+    for (const Film::Sums* sums : film.sums()) bytes += bytes_of(*sums);
     Checksum sum;
-    for (std::string_view part : parts) sum.add(part);
+    sum.add(bytes);
     write_file_atomically(path, [&](std::ostream& file) {
-        file << first_line << bytes_of(std::array{sum.value()});
-        for (std::string_view part : parts) file << part;
+        file << first_line << bytes_of(std::array{sum.value()}) << bytes;
     });
 }
 
 LabeledFilm read_film(const std::string& path) {
-    std::ifstream file = whole_film(path);
+    const std::string whole = read_file(path, std::numeric_limits<size_t>::max());
+    std::string_view file = whole;
+    if (!file.starts_with(first_line))
+        fail({path}, "not a film, or one by another version of the program");
+    file.remove_prefix(first_line.size());
+    std::array<uint64_t, 1> written = {};
+    read(file, written);
+    Checksum sum;
+    sum.add(file);
+    if (written[0] != sum.value()) fail({path}, "the film is damaged, or cut short");
     FilmLabel label{read_notes(file), {}, {}};
     Shape shape;
     std::array<uint64_t, 1> size;

@@ -109,7 +109,8 @@ public:
     bool has_halves() const { return has_halves_; }
     const std::vector<PixelSum>& half(int number) const { return number == 0 ? pixels_ : audits_; }
 
-    /// Adds the next sample of a pixel. Two threads must not add to one pixel, here and below.
+    /// Adds the next sample of a pixel; half 1 of an audited pixel: the audit of its last sample.
+    /// Two threads must not add to one pixel, here and below.
     void add(size_t pixel, Rgb L, int half = 0) { sum_in(pixel, half).add(L); }
     /// Adds one part of a sample, to the sums only: the film then has a mean but no error. At the
     /// end it gets the numbers of samples of the whole film, and has halves if that has.
@@ -133,8 +134,6 @@ public:
     void start_audit();
     bool has_audits() const { return !audits_.empty() && !has_halves_; }
     bool is_audited(size_t pixel) const { return pixels_[pixel].is_audited > 0; }
-    /// Adds the audit sample that belongs to the last sample of this pixel.
-    void audit(size_t pixel, Rgb L) { audits_[second_of(pixel)].add(L); }
 
     /// From now on the samples of one pass (one sample of each pixel) may depend on each other.
     /// The spread of the passes' means shows how much: each pass is added to one of a few batches,
@@ -215,7 +214,9 @@ private:
         auto place = std::lower_bound(audited_.begin(), audited_.end(), pixel);
         return static_cast<size_t>(place - audited_.begin());
     }
-    PixelSum& sum_in(size_t pixel, int half) { return half == 0 ? pixels_[pixel] : audits_[pixel]; }
+    PixelSum& sum_in(size_t pixel, int half) {
+        return half == 0 ? pixels_[pixel] : audits_[second_of(pixel)];
+    }
 
     std::vector<PixelSum> pixels_, audits_;  // the audits may be a second half
     bool has_halves_ = false;

@@ -112,17 +112,6 @@ bool has_large_table(std::string_view file) {
     return false;
 }
 
-/// The bytes before the data: ten, and by the bits of the fourth an extra field, a name, a comment
-/// and a checksum. All bytes where these are not packed by gzip.
-size_t size_of_gzip_header(std::string_view bytes) {
-    size_t flags = byte_at(bytes, 3), size = 10;
-    if (flags & 4) size += 2 + byte_at(bytes, size) + 256 * byte_at(bytes, size + 1);
-    for (size_t flag : {8u, 16u})
-        if (flags & flag) size = std::min(bytes.find('\0', size), bytes.size()) + 1;
-    if (flags & 2) size += 2;
-    return byte_at(bytes, 2) == 8 ? std::min(size, bytes.size()) : bytes.size();
-}
-
 bool is_jpg(std::string_view bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
 /// The text of the first comment of a .png; empty where there is none. Throws InputError where a
@@ -237,13 +226,12 @@ Image decode_ppm_or_pfm(const std::string& path, const std::string& bytes, float
     if (!is_read || std::min(width, height) < 1 || int64_t{width} * height > most_pixels)
         fail({path}, not_read);
 
-    // One blank ends the header, or CR LF where the file then has the right size.
+    // One blank ends the header.
     size_t channels = is_grey ? 1 : 3,
            values = channels * static_cast<size_t>(width) * static_cast<size_t>(height),
            size = values * (is_ppm ? 1 : 4);
     std::string_view body = bytes;
     body.remove_prefix(std::min(static_cast<size_t>(header.tellg()), bytes.size()));
-    if (body.starts_with("\r\n") && body.size() == size + 2) body.remove_prefix(1);
     if (body.size() != size + 1) fail({path}, not_whole);
     body.remove_prefix(1);
 
@@ -271,12 +259,13 @@ std::string png_chunk(const std::string& kind_and_data) {
     return big_endian(kind_and_data.size() - 4) + kind_and_data + big_endian(crc32(kind_and_data));
 }
 
-bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
-
 std::string unpack_gzip(const std::string& path, const std::string& bytes) {
+    if (!bytes.starts_with("\x1f\x8b")) return bytes;
     constexpr size_t most = 1032, room = 1 << 14;  // times larger; what stb asks for at first
     most_memory = std::min(most_bytes, room + 2 * most * bytes.size());
-    size_t header = size_of_gzip_header(bytes);
+    // Ten bytes, then the name of the file where a bit of the fourth says so.
+    size_t header = byte_at(bytes, 3) & 8 ? bytes.find('\0', 10) + 1 : 10;
+    header = std::min(std::max(header, size_t{10}), bytes.size());
     int size = 0;
     // stb looks at a few bytes behind the data, and so is given the rest of the file too.
     std::unique_ptr<char, void (*)(void*)> unpacked(

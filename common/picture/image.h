@@ -49,6 +49,5 @@ Image decode_image(const std::string& path, const std::string& bytes, float gamm
 /// The comment that write_image put into a .ppm or .png; empty where there is none.
 std::string decode_comment(const std::string& path, const std::string& bytes);
 
-/// Whether a file is packed by gzip, and what it holds; throws InputError for one that is damaged.
-bool is_gzip(std::string_view bytes);
+/// What a file holds, be it packed by gzip or not; throws InputError for one that is damaged.
 std::string unpack_gzip(const std::string& path, const std::string& bytes);

@@ -172,7 +172,7 @@ struct TileRenderer {
                     bool audited = result.film.is_audited(pixel);
                     if (audited) trace(at, 1, again);
                     add_sample(at, own, now.stats);
-                    if (audited) result.film.audit(pixel, again.total);
+                    if (audited) result.film.add(pixel, again.total, 1);
                     if (method.prepare) now.of_pass.add(own.total);
                     if (seen) seen->add(own.L);
                     now.stats.rays = rays_traced - rays_before;  // of whole samples

@@ -41,7 +41,7 @@ const auto& look_up(const Map& map, const std::string& name, const std::string& 
 /// be read.
 inline std::string read_scene_file(const std::string& path) {
     std::string bytes = read_file(path);
-    return is_gzip(bytes) ? unpack_gzip(path, bytes) : bytes;
+    return unpack_gzip(path, bytes);
 }
 
 /// One run of the reader: what it may read, has read, and says.

@@ -90,7 +90,7 @@ TEST_SUITE("film error") {
             v[edge] += here, v2[edge] += here * here;
             if (!film.is_audited(i)) continue;
             std::vector<double> y = samples_of(static_cast<uint32_t>(i + 1000), n, edge ? 8 : 1);
-            for (double s : y) film.audit(i, grey(s));
+            for (double s : y) film.add(i, grey(s), 1);
             double both = (here + variance_of_mean(y)) / 2;
             found[edge] += std::pow(mean_of(x) - mean_of(y), 2) / 2;
             audited[edge] += both, audited2[edge] += both * both;
