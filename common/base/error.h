@@ -1,10 +1,7 @@
 // What is thrown when the user's input is wrong, and where in a file it stands; main() prints
 // what() and exits.
 #pragma once
-#include <cstdint>
-#include <cstdio>
 #include <mutex>
-#include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -30,19 +27,6 @@ inline void throw_lines(const std::vector<std::string>& lines) {
     std::string text;
     for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
     if (!text.empty()) throw InputError(text);
-}
-
-/// Does the work; where there is too little memory for it, throws an InputError that says what
-/// needed how much.
-template <typename Work>
-decltype(auto) needing_memory(const std::string& what, uint64_t bytes, const Work& work) {
-    try {
-        return work();
-    } catch (const std::bad_alloc&) {
-        char size[32];
-        std::snprintf(size, sizeof size, "%.3g MB", static_cast<double>(bytes) / 1e6);
-        throw InputError("error: out of memory: " + what + " needs " + size);
-    }
 }
 
 /// What stands in an exercise where a function is left to the reader. It ends whatever needs the
@@ -100,11 +84,4 @@ inline std::string unknown(const std::string& kind, const std::string& word,
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
     return text + " (known: " + list + ')';
-}
-
-/// Throws that a word is unknown.
-[[noreturn]] inline void fail_unknown(const Position& at, const std::string& kind,
-                                      const std::string& word,
-                                      const std::vector<std::string>& known) {
-    fail(at, unknown(kind, word, known));
 }

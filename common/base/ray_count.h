@@ -3,38 +3,24 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <mutex>
-#include <vector>
 
 /// Thrown from a ray of a path for which there is no time left; what it has found is lost.
 struct TracingEnds : std::exception {
     const char* what() const noexcept override { return "tracing was stopped"; }
 };
 
-/// While it lives, rays of all threads throw TracingEnds when `ends()`. Any thread may ask that,
-/// now and then. Of several, the last one counts.
+/// While it lives, rays of this thread, and of those that parallel_for() starts for it, throw
+/// TracingEnds when `ends()`. They ask that now and then.
 class TracingLimit {
 public:
-    explicit TracingLimit(const std::function<bool()>& ends) : ends_(ends) {
-        std::lock_guard lock(mutex);
-        limits.push_back(this);
-    }
-    ~TracingLimit() {
-        std::lock_guard lock(mutex);
-        std::erase(limits, this);
-    }
+    explicit TracingLimit(const std::function<bool()>& ends) : ends_(ends) { current = &ends_; }
+    ~TracingLimit() { current = nullptr; }
     TracingLimit(const TracingLimit&) = delete;
     TracingLimit& operator=(const TracingLimit&) = delete;
 
-    static bool is_reached() {
-        std::lock_guard lock(mutex);
-        return !limits.empty() && limits.back()->ends_();
-    }
+    static inline constinit thread_local const std::function<bool()>* current = nullptr;
 
 private:
-    // Those that live. Renders on several threads begin and end in any order.
-    static inline std::mutex mutex;
-    static inline std::vector<const TracingLimit*> limits;
     const std::function<bool()> ends_;
 };
 
@@ -53,7 +39,7 @@ private:
     static constexpr uint64_t between_looks = 128;
     [[gnu::noinline]] void look() {
         counted_ += between_looks, left_ = between_looks;
-        if (TracingLimit::is_reached()) throw TracingEnds();
+        if (TracingLimit::current && (*TracingLimit::current)()) throw TracingEnds();
     }
 
     uint64_t counted_ = between_looks, left_ = between_looks;

@@ -5,7 +5,6 @@
 #include <sys/mman.h>
 #endif
 
-#include "common/base/progress.h"
 #include "common/geometry/geometry.h"
 #include "common/geometry/simd.h"
 
@@ -47,8 +46,8 @@ struct Bvh {
 };
 
 /// Builds the hierarchy over all primitives. It does not depend on the number of threads, to the
-/// last bit. `report` hears how far it is.
-Bvh build_bvh(const Geometry& geometry, int threads, const Report& report = {});
+/// last bit.
+Bvh build_bvh(const Geometry& geometry, int threads);
 
 /// The first primitive that the ray hits, as linear_scan() finds it; of two at the same t the one
 /// with the lower number. t is right to 1 part in 256 at the worst, and mostly to 1 in 100,000; of

@@ -14,7 +14,6 @@ constexpr uint32_t small = lanes / 2;      // references of a block that is not 
 constexpr float worth_parting = 0.67f;     // of a block's surface, that its parts have together
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
-constexpr int reported_level = 6;          // of subtrees whose end is reported
 constexpr float worth_cutting = 1e-2f;     // of all surface, that one box wastes
 constexpr uint32_t whole_for_a_part = 10;  // so many references for one more by cutting
 constexpr int cost_levels = 64;            // below that, halve by number: the depth stays bounded
@@ -212,8 +211,8 @@ struct Gathered {
 
 class Builder {
 public:
-    Builder(const Geometry& geometry, int threads, const Report& report)
-        : g_(geometry), threads_(threads), idle_threads_(threads - 1), report_(report) {}
+    Builder(const Geometry& geometry, int threads)
+        : g_(geometry), threads_(threads), idle_threads_(threads - 1) {}
 
     Bvh build() {
         Range all = make_refs();
@@ -232,7 +231,8 @@ public:
                 if (i < nodes) {
                     fill_node(*wide_[i], bvh_.nodes[i]);
                 } else {
-                    fill_block(leaves_[i - nodes], bvh_.blocks[i - nodes]);
+                    auto [first, last] = leaves_[i - nodes];
+                    fill_block(first, last, bvh_.blocks[i - nodes]);
                 }
             }
         });
@@ -241,11 +241,6 @@ public:
 
 private:
     static constexpr int chunks = 64;
-
-    /// The references of one block.
-    struct Leaf {
-        uint32_t begin, end;
-    };
 
     /// Calls work(begin, end, chunk) for the parts of 0 .. size-1, on all threads.
     template <typename Work>
@@ -355,10 +350,6 @@ private:
             if (apart) idle_threads_++;
         });
         if (apart) idle_threads_--;
-        if (level == reported_level && report_) {
-            double done = built_ += range.size();
-            report_("building the hierarchy", done / static_cast<double>(refs_.size()));
-        }
         return share_places(node, costs[0], costs[1]);
     }
 
@@ -440,13 +431,13 @@ private:
             leaves_.push_back({i, std::min(i + lanes, size)});
     }
 
-    void fill_block(Leaf leaf, BvhBlock& block) {
+    void fill_block(uint32_t begin, uint32_t end, BvhBlock& block) {
         std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
         std::fill_n(block.prim, lanes, PrimHit::none);
-        auto first = refs_.begin() + leaf.begin, end = refs_.begin() + leaf.end;
-        std::partition(first, end, [&](const Ref& ref) { return !is_triangle(ref); });
+        std::partition(refs_.begin() + begin, refs_.begin() + end,
+                       [&](const Ref& ref) { return !is_triangle(ref); });
         uint32_t lane = 0;
-        for (uint32_t i = leaf.begin; i < leaf.end; i++) {
+        for (uint32_t i = begin; i < end; i++) {
             uint32_t prim = refs_[i].prim();
             if (std::find(block.prim, block.prim + lane, prim) != block.prim + lane) continue;
             block.prim[lane] = prim;
@@ -462,16 +453,13 @@ private:
     const Geometry& g_;
     int threads_;
     std::atomic<int> idle_threads_;
-    const Report& report_;
-    std::atomic<uint32_t> built_ = 0;  // references in finished subtrees
     Refs refs_;
-    std::vector<Node*> wide_;   // the roots of wide nodes, in their order
-    std::vector<Leaf> leaves_;  // in the order of their blocks
+    std::vector<Node*> wide_;  // the roots of wide nodes, in their order
+    // Begin and end of the references of each block, in the order of the blocks.
+    std::vector<std::pair<uint32_t, uint32_t>> leaves_;
     Bvh bvh_;
 };
 
 }  // namespace
 
-Bvh build_bvh(const Geometry& geometry, int threads, const Report& report) {
-    return Builder(geometry, threads, report).build();
-}
+Bvh build_bvh(const Geometry& geometry, int threads) { return Builder(geometry, threads).build(); }

@@ -258,14 +258,6 @@ struct TileRenderer {
     }
 };
 
-Film empty_film(const Scene& scene, bool takes_splats) {
-    uint64_t pixels = static_cast<uint64_t>(scene.width) * static_cast<uint64_t>(scene.height);
-    std::string what =
-        "a film of " + std::to_string(scene.width) + "x" + std::to_string(scene.height) + " pixels";
-    return needing_memory(what, (takes_splats ? 3 : 1) * pixels * sizeof(PixelSum),
-                          [&] { return Film(scene.width, scene.height, takes_splats); });
-}
-
 }  // namespace
 
 void mark_lamp_edges(const Scene& scene, int threads, Film& film) {
@@ -291,7 +283,7 @@ void mark_lamp_edges(const Scene& scene, int threads, Film& film) {
 
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method) {
     uint32_t pilot = method.allocation.pilot;
-    Rendering result{empty_film(scene, method.splats), {}, {}};
+    Rendering result{Film(scene.width, scene.height, method.splats), {}, {}};
     Limit limit(options.time);
     TracingLimit tracing([&] { return limit.overdue(); });
     if (pilot > 0) {

@@ -195,7 +195,8 @@ void prepare(Scene& scene, int threads, const Report& report) {
     scene.centre = empty ? scene.camera.o : (box.low + box.high) / 2;
     scene.light_shapes = light_shapes_of(scene);
     scene.geometry.facet_normals = facet_normals(scene.geometry);
-    scene.bvh = std::make_shared<Bvh>(build_bvh(scene.geometry, threads, report));
+    if (report) report("building the hierarchy", 0);
+    scene.bvh = std::make_shared<Bvh>(build_bvh(scene.geometry, threads));
 }
 
 std::vector<std::string> notes_of_coincident(const Scene& scene) {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/base/error.h"
-#include "common/base/progress.h"
+#include "common/base/parallel.h"
 #include "common/scene/scene.h"
 
 /// Something in the scene that is not modelled, and what is rendered in its place.

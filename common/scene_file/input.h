@@ -33,7 +33,7 @@ template <class Map>
 const auto& look_up(const Map& map, const std::string& name, const std::string& kind,
                     const Position& at) {
     auto found = map.find(name);
-    if (found == map.end()) fail_unknown(at, kind, name, names_of(map));
+    if (found == map.end()) fail(at, unknown(kind, name, names_of(map)));
     return found->second;
 }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/base/progress.h"
+#include "common/base/parallel.h"
 #include "common/base/text.h"
 
 /// An error behind which nothing more is read: a limit that is passed, a string without an end.

@@ -217,7 +217,7 @@ private:
             std::erase_if(known, [&](const std::string& type) {
                 return !or_stand_in(directive_ + ' ' + quote(type)).empty();
             });
-            fail_unknown(at, directive_, type_, known);
+            fail(at, unknown(directive_, type_, known));
         }
         known_ = &types.at(type_);
     }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/progress.h"
+#include "common/base/parallel.h"
 #include "common/scene/scene.h"
 
 /// How large a scene may be. What grows beyond it is refused where it does, before it fills the

@@ -81,7 +81,7 @@ TEST_SUITE("outputs") {
         CHECK(folder.names() == std::set<std::string>{"a.film", "a.ppm", "b.film", "b.ppm"});
     }
 
-    TEST_CASE("input: memory that cannot be had is named") {
+    TEST_CASE("input: memory that cannot be had is an error") {
 #if defined(__SANITIZE_ADDRESS__)
         MESSAGE("skipped: the sanitizer needs all addresses");
 #else
@@ -93,7 +93,7 @@ TEST_SUITE("outputs") {
                                                         "5000x5000", "--out", folder / "a.ppm"});
                        }).wait();
         CHECK(end.code == 1);
-        CHECK(end.err.starts_with("error: out of memory: a film of 5000x5000 pixels needs "));
+        CHECK(end.err == "error: out of memory\n");
 #endif
     }
 }
