@@ -32,8 +32,8 @@ std::vector<Use> uses_not_in(Features features, const Scene& scene) {
         add(!features.dispersion && scene.materials[i].glass, scene.materials[i].at,
             "glass disperses in chapters 18 and 19 only: try a number as its \"float eta\"",
             "glass that disperses, in a chapter without it");
-    for (const Mover& mover : scene.movers)
-        add(!features.shutter, mover.at, "shapes move in chapters 16 to 22 only",
+    for (const auto& mover : scene.movers)
+        add(!features.shutter, mover->at, "shapes move in chapters 16 to 22 only",
             "a shape that moves, in a chapter where all rest");
     if (scene.sky_image)
         add(!features.sky_image, scene.sky_image->at_file,
