@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "23_photon_mapping", {"scenes/pool.pbrt", 24}, extra);
         options.search = LightSearch::photons;
         Scene scene = load(options, features_of(23));
-        s.radius = radius_within(scene, radius);
+        s.radius = static_cast<float>(radius);
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch23::photon_passes(scene, s));
     });

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
                                                      {"scenes/pool.pbrt", 24}, extra);
         options.search = LightSearch::photons;
         Scene scene = load(options, features_of(24));
-        s.radius = radius_within(scene, radius);
+        s.radius = static_cast<float>(radius);
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch24::photon_passes(scene, s));
     });

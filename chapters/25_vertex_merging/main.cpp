@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
             parse_render_options(argc, argv, "25_vertex_merging", {"scenes/sds.pbrt", 16}, extra);
         options.search = LightSearch::merging;
         Scene scene = load(options, features_of(25));
-        s.radius = radius_within(scene, radius);
+        s.radius = static_cast<float>(radius);
         s.sampler = options.sampler, s.seed = options.seed;
         return render(scene, options, ch25::merging_passes(scene, s));
     });

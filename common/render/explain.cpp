@@ -27,10 +27,6 @@ struct Svg {
         std::snprintf(element, sizeof element, pattern, args...);
         text += element;
     }
-    void line(Vec2 a, Vec2 b, const char* style) {
-        add("<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' %s/>\n", double{a.x}, double{a.y},
-            double{b.x}, double{b.y}, style);
-    }
     /// Words with a contrasting outline; `at`: left end of their base line.
     void words(Vec2 at, const std::string& words) {
         add("<text x='%.1f' y='%.1f' font-family='sans-serif' font-size='13' stroke='white' "
@@ -134,17 +130,9 @@ void draw_line(Svg& svg, const Panel& panel, Vec3 a, Vec3 b, const char* style) 
     if (!(near > 0)) return;
     if (za < near) a = a + (near - za) / (zb - za) * (b - a);
     if (zb < near) b = b + (near - zb) / (za - zb) * (a - b);
-    svg.line(panel.project(a), panel.project(b), style);
-}
-
-void draw_rays(Svg& svg, const Panel& panel, const Scene& scene,
-               const std::vector<TracedRay>& rays) {
-    for (const auto& [ray, shadow, met, t] : rays) {
-        if (met && !shadow) continue;  // leads to the next vertex
-        const char* style = !shadow ? path : met ? blocked : open;
-        float end = std::min(shadow ? ray.t_max : t, 2 * scene.radius);
-        draw_line(svg, panel, ray.o, ray.o + end * ray.d, style);
-    }
+    Vec2 from = panel.project(a), to = panel.project(b);
+    svg.add("<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' %s/>\n", double{from.x}, double{from.y},
+            double{to.x}, double{to.y}, style);
 }
 
 void draw_point(Svg& svg, const Panel& panel, Vec3 p, const std::string& name) {
@@ -173,7 +161,12 @@ std::string draw_path(const Scene& scene, Vec3 eye, std::vector<PathVertex> vert
         svg.add("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='0 0 %d %d'>\n",
                 double{left}, double{margin}, panel.width, panel.height, panel.width, panel.height);
         draw_scene(svg, panel, scene);
-        draw_rays(svg, panel, scene, rays);
+        for (const auto& [ray, shadow, met, t] : rays) {
+            if (met && !shadow) continue;  // leads to the next vertex
+            const char* style = !shadow ? path : met ? blocked : open;
+            float end = std::min(shadow ? ray.t_max : t, 2 * scene.radius);
+            draw_line(svg, panel, ray.o, ray.o + end * ray.d, style);
+        }
         if (!panel.is_camera) draw_point(svg, panel, eye, "E");
         for (size_t i = 0; i < vertices.size(); i++) {
             const auto& [p, from] = vertices[i];

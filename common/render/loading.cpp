@@ -1,6 +1,6 @@
 #include "common/render/loading.h"
 
-#include <algorithm>
+#include <map>
 #include <set>
 
 #include "common/base/error.h"
@@ -28,10 +28,14 @@ std::vector<Use> uses_not_in(Features features, const Scene& scene) {
         "a lens, in a chapter without one");
     std::set<size_t> materials;
     for (const Shape& shape : scene.shapes) materials.insert(shape.material);
-    for (size_t i : materials)
-        add(!features.dispersion && scene.materials[i].glass, scene.materials[i].at,
+    for (size_t i : materials) {
+        const Material& m = scene.materials[i];
+        add(!features.dispersion && m.glass, m.at,
             "glass disperses in chapters 18 and 19 only: try a number as its \"float eta\"",
             "glass that disperses, in a chapter without it");
+        add(!features.rough && is_rough(m), m.at,
+            "rough conductors are not supported before chapter 13", nullptr);
+    }
     for (const auto& mover : scene.movers)
         add(!features.shutter, mover->at, "shapes move in chapters 16 to 22 only",
             "a shape that moves, in a chapter where all rest");
@@ -39,9 +43,6 @@ std::vector<Use> uses_not_in(Features features, const Scene& scene) {
         add(!features.sky_image, scene.sky_image->at_file,
             "the sky has an image in chapters 17 to 25 only",
             "a picture of the sky, in a chapter without one");
-    for (size_t i : materials)
-        add(!features.rough && is_rough(scene.materials[i]), scene.materials[i].at,
-            "rough conductors are not supported before chapter 13", nullptr);
     return uses;
 }
 
@@ -61,40 +62,34 @@ Rgb mean_of(const SkyImage& sky) {
 
 Scene load(const RenderOptions& options, Features features) {
     Progress progress(10);
-    std::vector<std::string> notes;
-    auto tell_notes = [&] {
+    auto tell_all = [&](const std::vector<std::string>& notes) {
         progress.clear();
-        for (const std::string& line : notes)
-            if (!options.quiet) tell(line + "\n");
+        for (const std::string& line : notes) tell(line + "\n");
     };
+    std::vector<std::string> notes;
     Report report;
     if (!options.quiet)
         report = [&](const std::string& what, double share) { progress.show(what, share); };
     Scene scene = load_scene(options.scene, &notes, report, options.stand_in);
-    tell_notes();
+    if (!options.quiet) tell_all(notes);
     if (options.stand_in) stand_in_for_features(scene, features);
     refuse_features(scene, features, options.stand_in);
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
     prepare(scene, options.threads, report);
-    notes.clear();
-    if (!options.quiet) notes = notes_of_coincident(scene);
-    tell_notes();
+    if (!options.quiet) tell_all(notes_of_coincident(scene));
     return scene;
 }
 
 void stand_in_for_features(Scene& scene, Features features) {
-    std::vector<Use> uses = uses_not_in(features, scene);
+    std::map<std::string, std::set<Position>> used;  // the stand-ins, and where
+    for (const Use& use : uses_not_in(features, scene))
+        if (use.stand_in) used[use.stand_in].insert(scene.place(use.at));
     Origin origin = *scene.origin;
-    for (const auto& [what, instead] : all_stand_ins()) {
-        UsedStandIn used{what, instead, 0, {}};
-        for (const Use& use : uses) {
-            if (!use.stand_in || use.stand_in != what) continue;
-            if (used.places++ == 0) used.first = scene.place(use.at);
-        }
-        if (used.places > 0) origin.stand_ins.push_back(used);
-    }
+    for (const auto& [what, places] : used)
+        origin.stand_ins.push_back(
+            {what, all_stand_ins().at(what), places.size(), *places.begin()});
     scene.origin = std::make_shared<Origin>(std::move(origin));
     if (!features.lens) scene.camera.lens_radius = 0;
     for (Material& m : scene.materials)
@@ -115,15 +110,6 @@ void refuse_features(const Scene& scene, Features features, bool stand_ins) {
         if (stand_ins && use.stand_in) continue;
         fail(scene.place(use.at), use.error + (use.stand_in ? or_stand_in(use.stand_in) : ""));
     }
-}
-
-float radius_within(const Scene& scene, double radius) {
-    double low = 1e-6 * double{scene.radius}, high = 2 * double{scene.radius};
-    if (radius > 0 && high > 0 && (radius < low || radius > high))
-        fail_value(
-            "radius", digits(radius),
-            "a length from " + digits(low, 3) + " to " + digits(high, 3) + " m in this scene");
-    return static_cast<float>(radius);
 }
 
 void refuse_delta_lights(const Scene& scene) {

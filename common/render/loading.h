@@ -24,10 +24,6 @@ Scene load(const RenderOptions& options, Features features);
 /// adds them to those of the scene.
 void stand_in_for_features(Scene& scene, Features features);
 
-/// The radius (m; 0: the chapter chooses it), or UsageError if it is not between a millionth of the
-/// scene's radius and the scene's diameter.
-float radius_within(const Scene& scene, double radius);
-
 /// Throws InputError if the scene has a point or distant light: a path that finds light only by
 /// random hits never finds it.
 void refuse_delta_lights(const Scene& scene);

@@ -48,22 +48,16 @@ std::vector<Option> parse_options(int argc, char** argv, const std::string& posi
                        }});
     std::vector<std::string> names;
     for (const Option& option : options) names.push_back("--" + option.name);
-    bool options_ended = false;
     for (int i = 1; i < argc; i++) {
         std::string word = argv[i];
-        bool is_option = word.starts_with('-') && !options_ended;
-        options_ended |= word == "--";
-        if (!is_option) set_positional(word);
-        if (!is_option || word == "--") continue;
+        if (!word.starts_with('-')) {
+            set_positional(word);
+            continue;
+        }
         size_t equals = word.find('=');
         std::string name = word.substr(0, equals), value;
         size_t index = index_of(names, name);
-        if (index == names.size()) {
-            std::string nearest = nearest_word(name, names);
-            throw UsageError(
-                "error: unknown option '" + name + "'" +
-                (nearest.empty() ? "; --help lists them" : ", did you mean '" + nearest + "'?"));
-        }
+        if (index == names.size()) throw UsageError("error: " + unknown("option", name, names));
         Option& option = options[index];
 
         // Take the value from after the = or from the next word.
@@ -159,11 +153,9 @@ int run_program(const std::function<int()>& program) {
     }
 }
 
-namespace {
-
 /// The path of the project's file `name`, from the working directory: it is searched in the folder
 /// of the program and in the folders above. If it is not found: `name` itself.
-std::string project_file(const std::string& program, const std::string& name) {
+static std::string project_file(const std::string& program, const std::string& name) {
     namespace fs = std::filesystem;
     std::error_code none;
     fs::path folder = own_file(program);
@@ -176,20 +168,17 @@ std::string project_file(const std::string& program, const std::string& name) {
 }
 
 /// Throws UsageError for values that are wrong, and for options that cannot be combined.
-void check(const RenderOptions& o) {
+static void check(const RenderOptions& o) {
     ClassFilter{o.paths};
     // At shorter intervals nothing would be rendered between two writings.
     if (o.film_every < 0.01) throw UsageError("error: --film-every takes at least 0.01 seconds");
-    if (o.film.empty()) {
-        if (o.parts == 1) return;
+    if (o.film.empty() && o.parts > 1)
         throw UsageError("error: --part needs --film, or its samples could not be merged");
-    }
-    if (!has_ending(o.film, film_ending)) fail_value("film", o.film, "a .film file");
-    if (!o.split.empty())
+    if (!o.film.empty() && !has_ending(o.film, film_ending))
+        fail_value("film", o.film, "a .film file");
+    if (!o.film.empty() && !o.split.empty())
         throw UsageError("error: --split and --film: a film keeps the whole alone, no classes");
 }
-
-}  // namespace
 
 std::string parse_picture(const std::string& option, const std::string& text, bool or_table) {
     if (is_image_path(text) || (or_table && has_ending(text, ".tsv"))) return text;

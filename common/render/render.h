@@ -95,18 +95,14 @@ struct Rendering {
 /// pilot, so that samples are distributed as in the whole render.
 Rendering render_film(const Scene& scene, const RenderOptions& options, const Method& method);
 
-/// The samples of a pixel that the options ask for: all, or those of a part. Their number is not
-/// limited with --time but without --spp. Throws UsageError if there are more parts than samples.
-SampleRange wanted_samples(const Scene& scene, const RenderOptions& options);
-
 /// Continues from the film that the options name, or makes one without samples; it is this
 /// program's alone then. Throws InputError if another program writes it, its options differ, or it
 /// has other samples than the wanted ones.
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering);
 
-/// The label of a film with all samples; and (below) with the given ones.
-FilmLabel label_of(const Scene& scene, const RenderOptions& options);
-FilmLabel label_of(const Scene& scene, const RenderOptions& options, const Rendering& rendering);
+/// The label of a film with the samples of a rendering, or with all samples.
+FilmLabel label_of(const Scene& scene, const RenderOptions& options,
+                   const Rendering* rendering = nullptr);
 
 /// A hash of the files in the chapter's folder and in common/: the same on all machines, and
 /// different after any change. Empty if there is no such chapter. tested by  "teeth: the hash of a

@@ -5,7 +5,6 @@
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/progress.h"
-#include "common/base/stats.h"
 #include "common/base/system.h"
 #include "common/picture/drawing.h"
 #include "common/render/render.h"
@@ -33,7 +32,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     };
     add("scene", json_quoted(scene.origin->file));
     add("spp", json_number(r.film.spp()));
-    add_texts("notes", lines_of(notes_of(label_of(scene, options, r), r.film.spp())));
+    add_texts("notes", lines_of(notes_of(label_of(scene, options, &r), r.film.spp())));
     add("threads", std::to_string(options.threads));
     add("seconds", json_number(s.seconds));
     add("rays", std::to_string(s.rays));
@@ -115,7 +114,7 @@ std::vector<Output> outputs_of(const Scene& scene, const RenderOptions& options,
         return [=, &scene, &options, &r] {
             RenderOptions whole = options;
             if (!path_class.empty()) whole.paths = path_class;
-            FilmLabel label = label_of(scene, whole, r);
+            FilmLabel label = label_of(scene, whole, &r);
             write_image(path, image(), comment_of(notes_of(label, r.film.spp())));
         };
     };
@@ -218,16 +217,15 @@ std::string aligned(const Table& table) { return lines_of(table, true); }
 std::string tab_separated(const Table& table) { return lines_of(table, false); }
 
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
-    RunningStats u, v, uv, uu;
+    double n = static_cast<double>(x.size()), u = 0, v = 0, uv = 0, uu = 0;
     for (size_t i = 0; i < x.size(); i++) {
         double log_x = std::log(x[i]), log_y = std::log(y[i]);
-        u.add(log_x);
-        v.add(log_y);
-        uv.add(log_x * log_y);
-        uu.add(log_x * log_x);
+        u += log_x;
+        v += log_y;
+        uv += log_x * log_y;
+        uu += log_x * log_x;
     }
-    if (x.size() < 2) return NAN;
-    return (uv.mean() - u.mean() * v.mean()) / (uu.mean() - u.mean() * u.mean());
+    return n < 2 ? NAN : (n * uv - u * v) / (n * uu - u * u);
 }
 
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,

@@ -27,10 +27,10 @@ TEST_SUITE("options") {
         CHECK(o.paths == "LDS*E");
         CHECK(o.split == "d");
         CHECK(o.quiet);
-        o = parsed({"--explain", "3,4", "--spp", "2", "--spp", "3", "--", "--quiet"});
+        o = parsed({"--explain", "3,4", "--spp", "2", "--spp", "3", "a.pbrt"});
         CHECK(o.explain == SampleAt{0, 4, 3, 0});
         CHECK(o.spp == 3);  // the last of two counts
-        CHECK(o.scene == "--quiet");
+        CHECK(o.scene == "a.pbrt");
         CHECK(parsed({"--explain=3,4,17"}).explain->number == 17);
         CHECK(parsed({"--threads", "1024"}).threads == 1024);
         CHECK(parsed({"--size", "16384x16384"}).width == 16384);  // 2^28 pixels

@@ -47,7 +47,8 @@ TEST_SUITE("programs") {
                     CHECK(is_one_line(end.err));
                     CHECK(end.seconds < 5);
                 };
-                refuses(2, {"--quite"}, "error: unknown option '--quite', did you mean '--quiet'");
+                refuses(2, {"--quite"},
+                        "error: unknown option \"--quite\": did you mean \"--quiet\"?");
                 refuses(2, {"--out", "two\nlines"}, "error: ");
                 refuses(1, {"--out", "none/a.ppm"}, "none/a.ppm: error: ");
                 refuses(1, {"--out", precious}, precious + ": error: ");
