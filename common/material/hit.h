@@ -81,6 +81,11 @@ public:
         : material_(material),
           roots_{pack(reflectance.r), pack(reflectance.g), pack(reflectance.b)} {}
 
+    MaterialAt& operator=(const Material* material) {  // the texture stays
+        material_ = material;
+        return *this;
+    }
+
     /// All of the material, as it is at the point.
     struct Here : Material {
         const Here* operator->() const { return this; }

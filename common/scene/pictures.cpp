@@ -32,6 +32,7 @@ Rgb look_up(const TexturePicture& picture, const Texture& texture, Vec2 st) {
     float x = near(st.x) * static_cast<float>(picture.width);
     float y = near(1 - st.y) * static_cast<float>(picture.height);
     auto at = [&](int i, int j) { return texel(picture, texture.wrap, i, j); };
+    if (texture.nearest) return at(floor_to_int(x), floor_to_int(y));
 
     int i = floor_to_int(x - 0.5f), j = floor_to_int(y - 0.5f);
     float dx = x - 0.5f - static_cast<float>(i), dy = y - 0.5f - static_cast<float>(j);

@@ -148,6 +148,11 @@ float area_of(const Emitter& e) {
 }
 
 Scene::Scene() : origin(std::make_shared<Origin>()) {}
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) = default;
+Scene::~Scene() = default;
 
 Position Scene::place(const Position* at) const { return at ? *at : Position{origin->file}; }
 
@@ -175,8 +180,7 @@ void prepare(Scene& scene, int threads, const Report& report) {
     scene.has_normals = !scene.geometry.normals.empty();
     Box box = bounds_of(scene.geometry);
     uint32_t prims = scene.geometry.size();
-    for (const auto& shared : scene.movers) {
-        Mover& mover = *shared;
+    for (Mover& mover : scene.movers) {
         mover.first_prim = prims;
         scene.has_normals = scene.has_normals || !mover.geometry.normals.empty();
         prims += mover.geometry.size();

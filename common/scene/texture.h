@@ -22,7 +22,7 @@ struct Texture {
 
     Kind kind = Kind::constant;
     Wrap wrap = Wrap::repeat;
-    bool inverted = false;
+    bool nearest = false, inverted = false;  // nearest: the texel there, not a mean of four
     Rgb value = {1, 1, 1};
     Vec2 scale = {1, 1}, shift;
     uint32_t picture = 0;                 // into Textures::pictures

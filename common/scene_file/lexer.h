@@ -32,7 +32,8 @@ struct Token {
 /// ReadingEnds for a string without its end.
 class Lexer {
 public:
-    Lexer(std::string file, std::string bytes) : file_(std::move(file)), bytes_(std::move(bytes)) {
+    Lexer(std::string file, std::string bytes, const Report& report = {})
+        : file_(std::move(file)), bytes_(std::move(bytes)), report_(report) {
         for (size_t i = 0, length = 0; i < bytes_.size(); i += length) {
             length = utf8_length(bytes_, i);
             if (length > 0) continue;
@@ -76,6 +77,24 @@ public:
         if (!is_float) fail_at(token, what + " needs a number");
         return *value;
     }
+    /// What the quoted string means: its escapes \b \f \n \r \t \\ \' \" resolved.
+    std::string unescape(const Token& token) const {
+        constexpr std::string_view letters = "bfnrt\\'\"", meanings = "\b\f\n\r\t\\'\"";
+        std::string text;
+        for (size_t i = 0; i < token.text.size(); i++) {
+            if (token.text[i] != '\\') {
+                text += token.text[i];
+                continue;
+            }
+            size_t letter = letters.find(token.text[++i]);
+            if (letter == letters.npos) {
+                fail(at(token), "unknown escape " + quote(token.text.substr(i - 1, 2)) +
+                                    ": write / between folders, and \\\\ for a \\ in a string");
+            }
+            text += meanings[letter];
+        }
+        return text;
+    }
     /// Throws `TEXT, not TOKEN`.
     [[noreturn]] void fail_at(const Token& token, const std::string& text) const {
         std::string what = token.type == Token::end      ? "the end of the file"
@@ -105,15 +124,23 @@ private:
         while (stands_at(" \t\r\n#")) {
             advance_to(stands_at("#") ? bytes_.find_first_of("\r\n", position_) : position_ + 1);
         }
+        if (report_ && position_ >= next_report_) {
+            next_report_ = position_ + (size_t{1} << 20);
+            double share = static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
+            report_("reading " + file_, share);
+        }
         Token token = {Token::end, {}, line_, column_};
         size_t start = position_;
         if (start == bytes_.size()) return token;
         if (stands_at("\"")) {
-            // pbrt reads \n and its like as other characters; here a string is as it is written.
+            // Look for what ends it, but behind pairs such as \\ and \".
             size_t end = bytes_.find_first_of("\\\"\r\n", start + 1);
-            char last = end < bytes_.size() ? bytes_[end] : '\n';
-            if (last == '\\') stop_reading(at(token), "a \\ in a string: write / between folders");
-            if (last != '"') stop_reading(at(token), "the string does not end on its line");
+            while (end < bytes_.size() && bytes_[end] == '\\') {
+                end = bytes_.find_first_of("\\\"\r\n", end + 2);
+            }
+            if (end >= bytes_.size() || bytes_[end] != '"') {
+                stop_reading(at(token), "the string does not end on its line");
+            }
             token.type = Token::string;
             token.text = std::string_view(bytes_).substr(start + 1, end - start - 1);
             advance_to(end + 1);
@@ -127,7 +154,8 @@ private:
     }
 
     std::string file_, bytes_;
-    size_t position_ = 0;
+    Report report_;
+    size_t position_ = 0, next_report_ = 0;
     int line_ = 1, column_ = 1;
     Token ahead_;
 };

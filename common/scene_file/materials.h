@@ -14,17 +14,26 @@ inline Rgb larger(Rgb a, Rgb b) {
     return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)};
 }
 
-// Returns whether it is by u and v, not by places in space, for which grey stands in.
+// Returns whether the mapping is "uv", not one that grey stands in for.
 inline bool read_mapping(const Params& params, Texture& texture) {
     texture.scale = {params.number("uscale"), params.number("vscale")};
     texture.shift = {params.number("udelta"), params.number("vdelta")};
-    bool is_uv = params.string("mapping", "uv") == "uv" && params.number("dimension", 2) == 2;
+    bool is_uv = params.string("mapping", "uv") == "uv";
     if (!is_uv) params.stand_in("a mapping other than \"uv\"", "mapping");
     return is_uv;
 }
 
-// How codes become linear values, see to_linear().
-inline const std::map<std::string, float> encodings = {{"linear", 1.0f}, {"sRGB", 0.0f}};
+// How codes become linear values: to this power, or as sRGB codes (0).
+inline float read_encoding(const Params& params) {
+    std::string encoding = params.string("encoding", "sRGB");
+    if (encoding == "sRGB") return 0;
+    if (encoding == "linear") return 1;
+    bool is_gamma = encoding.starts_with("gamma ");
+    auto gamma = to_number(std::string_view(encoding).substr(is_gamma ? 6 : 0));
+    if (is_gamma && gamma && *gamma >= 0.01 && *gamma <= 100) return static_cast<float>(*gamma);
+    fail(params.at("encoding"), "encoding must be sRGB, linear, or gamma and 0.01 to 100");
+}
+
 inline const std::map<std::string, Texture::Wrap> wraps = {{"black", Texture::Wrap::black},
                                                            {"clamp", Texture::Wrap::clamp},
                                                            {"repeat", Texture::Wrap::repeat}};
@@ -63,7 +72,7 @@ public:
         Token name_token = lexer.expect(Token::string, "Texture needs a name in quotes");
         const std::string needs = "Texture needs \"float\" or \"spectrum\"";
         Token type = lexer.expect(Token::string, needs);
-        std::string name(name_token.text);
+        std::string name = lexer.unescape(name_token);
         if (type.text == "float") return lexer.skip_arguments();
         Params params(lexer, "Texture", at, input, defaults);
         if (type.text != "spectrum") lexer.fail_at(type, needs);
@@ -86,11 +95,14 @@ private:
         return read_checkerboard(params);
     }
     NamedTexture read_checkerboard(const Params& params) {
+        bool is_flat = params.integer("dimension") == 2;
+        if (!is_flat) params.stand_in("a checkerboard of 3 dimensions", "dimension");
         NamedTexture a = read_input(params, "tex1"), b = read_input(params, "tex2");
         Texture texture;
         texture.kind = Texture::Kind::checkerboard;
         texture.inputs = {a.index, b.index};
-        if (!read_mapping(params, texture)) return grey(params);
+        is_flat &= read_mapping(params, texture);
+        if (!is_flat) return grey(params);
         return add(params, texture, {0, larger(a.most, b.most), true});
     }
     // A texture, or one colour.
@@ -103,12 +115,11 @@ private:
         texture.kind = Texture::Kind::picture;
         bool is_uv = read_mapping(params, texture);
         texture.wrap = look_up(wraps, params.string("wrap", "repeat"), "wrap", params.at("wrap"));
+        texture.nearest = params.string("filter") == "point";
         texture.inverted = params.boolean("invert");
         float scale = params.number("scale");
         texture.value = {scale, scale, scale};
-        float gamma = look_up(encodings, params.string("encoding", "sRGB"), "encoding",
-                              params.at("encoding"));
-        std::optional<Image> image = read_picture(params, gamma);
+        std::optional<Image> image = read_picture(params, read_encoding(params));
         if (!image || !is_uv) return grey(params);
         Rgb most;
         for (Rgb r : image->pixels) most = larger(most, scale * r);

@@ -49,7 +49,7 @@ inline void read_value(Lexer& lexer, Param& param) {
     bool is_string = lexer.peek().type == Token::string;
     if (type == "string" || type == "texture" || (type == "spectrum" && is_string)) {
         Token token = lexer.expect(Token::string, name + " needs a string in quotes");
-        param.strings.emplace_back(token.text);
+        param.strings.push_back(lexer.unescape(token));
     } else if (type == "bool" || type == "integer") {
         Token token = lexer.next();
         bool is_true = token.text == "true";
@@ -69,7 +69,7 @@ inline Param read_param(Lexer& lexer) {
     Token declaration = lexer.next();
     Param param;
     param.at = lexer.at(declaration);
-    const std::string declared(declaration.text);
+    const std::string declared = lexer.unescape(declaration);
     std::vector<std::string> words = words_of(declared);
     if (words.size() != 2) fail(param.at, "expected \"type name\", not " + quote(declared));
     param.type = words[0];
@@ -119,7 +119,7 @@ public:
         Position type_at = at_;
         if (!is_named) {
             Token token = lexer.expect(Token::string, directive_ + " needs a type in quotes");
-            type_ = token.text;
+            type_ = lexer.unescape(token);
             type_at = lexer.at(token);
         }
         while (lexer.peek().type == Token::string) {

@@ -81,7 +81,7 @@ private:
     }
 
     void read(const std::string& path, std::string text) {
-        Lexer lexer(path, std::move(text));
+        Lexer lexer(path, std::move(text), input_.report);
         Lexer* outer = std::exchange(lexer_, &lexer);
         check_limit(at_, ++open_files_, 100, "files in each other");
         while (lexer.peek().type != Token::end) {
@@ -117,7 +117,7 @@ private:
     Params params() { return Params(*lexer_, name_, at_, input_, state_.defaults[name_]); }
     // The name in quotes behind the directive.
     std::string name() {
-        return std::string(lexer_->expect(Token::string, name_ + " needs a name in quotes").text);
+        return lexer_->unescape(lexer_->expect(Token::string, name_ + " needs a name in quotes"));
     }
 
     void include() {
@@ -308,10 +308,10 @@ private:
         if (absent_.contains(where.material) || is_nothing || is_clear) return;
         bool moves = where.start != where.end;
         if (moves && where.emission) input_.stand_in(params.at(), moving_light);
-        std::shared_ptr<Mover> mover;
+        std::optional<Mover> mover;
         if (moves && !where.emission) {
             check_limit(params.at(), scene_.movers.size() + 1, 1000, "shapes that move");
-            mover = std::make_shared<Mover>(where.start, where.end);
+            mover.emplace(where.start, where.end);
             mover->at = kept(params.at());
             std::swap(scene_.geometry, mover->geometry);
         }
@@ -322,7 +322,7 @@ private:
         check_limit(params.at(), g.positions.size(), input_.limits.vertices, "vertices");
         if (!mover) return;
         std::swap(scene_.geometry, mover->geometry);
-        if (mover->geometry.size() > 0) scene_.movers.push_back(mover);
+        if (mover->geometry.size() > 0) scene_.movers.push_back(std::move(*mover));
     }
 
     void texture() { textures_.read(*lexer_, at_, input_, state_.defaults["Texture"]); }
@@ -354,7 +354,7 @@ private:
         }
         place_instances();
         check_uvs(scene_.geometry);
-        for (const auto& mover : scene_.movers) check_uvs(mover->geometry);
+        for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
         if (!in_world_) fail(file, "no WorldBegin");
         if (!options_read_.contains("Camera")) fail(file, "no Camera");
         if (scene_.geometry.size() == 0 && scene_.movers.empty()) {

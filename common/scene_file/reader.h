@@ -23,7 +23,7 @@ struct Limits {
 /// notes   gets a line `file:line:column: note: text` for each thing that is not done as the file
 ///         says, also when an error follows; may be null
 /// stand_ins  whether what is not modelled is replaced (see supported.cpp)
-/// report  hears which file is read
+/// report  hears which file is read, and how far it is
 /// errors  InputError with a line `file:line:column: error: text` for each thing that is wrong or
 ///         not supported, at the first place where it is (after 20 lines the rest is not read)
 /// source  pbrt.org/fileformat-v4, and pbrt-v4 itself      tested by  tests/common/reader.cpp

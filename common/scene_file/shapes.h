@@ -137,11 +137,16 @@ inline double mean_scale(const Params& params, const std::vector<Vec3d>& axes) {
     return std::pow(product, 1 / static_cast<double>(axes.size()));
 }
 
-// Adds a sphere or a disk, which is always whole.
+// Adds a sphere or a disk, which is to be whole. pbrt clamps its limits to the whole.
 inline void add_round(const Params& params, const State& state, Shape& shape, Scene& scene) {
     const Transform& t = state.start;
     bool is_disk = params.type() == "disk";
     float radius = params.number("radius");
+    float z0 = params.number("zmin", -radius), z1 = params.number("zmax", radius);
+    bool is_whole = std::min(z0, z1) <= -radius && std::max(z0, z1) >= radius;
+    if (params.number("phimax") < 360 || params.number("innerradius") != 0 || !is_whole) {
+        params.stand_in("a part of a sphere or disk");
+    }
     double scale = mean_scale(params, is_disk ? std::vector{t.x, t.y} : std::vector{t.x, t.y, t.z});
     float r = static_cast<float>(radius * scale);
     if (!(r * r >= std::numeric_limits<float>::min())) {
@@ -188,6 +193,7 @@ inline void read_shape(const Params& params, const State& state, Scene& scene) {
         std::string path = input.find(name.at, name.strings[0]);
         TriangleMesh mesh;
         bool is_read = input.try_to_read(params.at(), "a mesh that cannot be read", [&] {
+            if (input.report) input.report("reading " + path, 0);
             mesh = parse_ply(path, input.read(path, name.at), input.limits);
         });
         if (is_read) add_mesh(params, mesh, state, each, scene);

@@ -82,9 +82,9 @@ constexpr ParamRow rows[] = {
     {"LightSource", "infinite", "", "portal", 0, 0, 0, 0, "a portal"},
 
     {"Shape", "sphere disk", "float", "radius", 1, 1.1e-19},  // the square of a smaller one is 0
-    {"Shape", "sphere", "", "phimax zmin zmax", 0, 0, 0, 0, "a part of a sphere or disk"},
-    {"Shape", "disk", "", "innerradius phimax", 0, 0, 0, 0, "a part of a sphere or disk"},
-    {"Shape", "disk", "float", "height"},
+    {"Shape", "sphere disk", "float", "phimax", 360},
+    {"Shape", "sphere", "float", "zmin zmax"},
+    {"Shape", "disk", "float", "height innerradius"},
     {"Shape", "plymesh", "string", "filename"},
     {"Shape", shapes, "", "alpha", 0, 0, 0, 0, "alpha"},
     {"Shape", shapes, "", "displacement displacement.edgelength edgelength", 0, 0, 0, 0,
@@ -105,9 +105,9 @@ constexpr ParamRow rows[] = {
     {"Texture", mapped, "float", "uscale vscale", 1, -1e9, 1e9},
     {"Texture", mapped, "float", "udelta vdelta", 0, -1e9, 1e9},
     {"Texture", mapped, "vector3", "v1 v2"},
-    {"Texture", "imagemap", "string", "encoding filename wrap"},
+    {"Texture", "imagemap", "string", "encoding filename filter wrap"},
     {"Texture", "imagemap", "float", "scale", 1, 0, 1e9},
-    {"Texture", "imagemap", ignored, "filter maxanisotropy"},
+    {"Texture", "imagemap", ignored, "maxanisotropy"},
     {"Texture", "imagemap", "bool", "invert"},
 };
 
@@ -149,6 +149,7 @@ const std::map<std::string, std::string>& all_stand_ins() {
         {"", "a bump or normal map", "none"},
         {"", "alpha", "1, or nothing where it is 0 everywhere"},
         {"", "a texture that is no reflectance", "the default of its parameter"},
+        {"", "a checkerboard of 3 dimensions", "grey (0.5)"},
         {"", "a mapping other than \"uv\"", "grey (0.5)"},
         {"", "a textured mesh without usable uv", "grey (0.5)"},
         {"", "a picture that cannot be read", "grey (0.5)"},

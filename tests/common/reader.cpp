@@ -200,13 +200,16 @@ TEST_SUITE("reader") {
             return "triangle 0 0 0 " + n + " " + x + " 0 0 " + n + " 0 " + x + " 0 " + n;
         };
         const std::string slanted = leaning("[0 .6 .8 0 .6 .8 0 .6 .8] "),
-                          whole_disk = " Shape 'disk' 'float radius' 2 'float height' 3 ";
+                          whole_disk =
+                              " Shape 'disk' 'float radius' 2 'float height' 3 "
+                              "'float innerradius' 0 'float phimax' 360";
         check_described({
             {"Translate 10 0 0 " + quad +
                  "'point2 uv' [0 0 1 0 1 1 0 1] 'vector3 S' [1 0 0 1 0 0 1 0 0 1 0 0] "
                  "'integer faceIndices' [7 8]",
              "triangle 10 0 0 12 0 0 12 1 0\ntriangle 10 0 0 12 1 0 10 1 0"},
-            {"Translate 1 2 3 Rotate 30 1 2 3 Scale -2 2 2 Shape 'sphere' 'float radius' 1.5",
+            {"Translate 1 2 3 Rotate 30 1 2 3 Scale -2 2 2 Shape 'sphere' 'float radius' 1.5 "
+             "'float zmin' -1.5 'float zmax' 1.5 'float phimax' 360",
              "sphere 1 2 3, 3"},
             {whole_disk, "disk 0 0 3, 0 0 1, 2"},
             {"ReverseOrientation" + whole_disk, "disk 0 0 3, 0 0 -1, 2"},
@@ -272,9 +275,9 @@ TEST_SUITE("reader") {
     TEST_CASE("input: materials hold up to AttributeEnd, and named ones before they are made") {
         check_described({
             {"NamedMaterial 'red'" + sphere +
-                 "MakeNamedMaterial 'a b' 'rgb reflectance' [0 1 0] 'string type' 'diffuse' "
+                 "MakeNamedMaterial 'a\\'b\\\\c' 'rgb reflectance' [0 1 0] 'string type' 'diffuse' "
                  "MakeNamedMaterial 'red' 'string type' 'diffuse' 'rgb reflectance' [1 0 0]" +
-                 sphere + "NamedMaterial 'a b'" + sphere,
+                 sphere + "NamedMaterial 'a\\'b\\\\c'" + sphere,
              "sphere 0 0 0, 1 1 0 0\nsphere 0 0 0, 1 1 0 0\nsphere 0 0 0, 1 0 1 0"},
             {"AttributeBegin Material 'diffuse' 'rgb reflectance' [1 0 0] AreaLightSource "
              "'diffuse' ReverseOrientation Shape 'sphere' AttributeEnd" +

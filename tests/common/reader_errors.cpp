@@ -129,6 +129,11 @@ TEST_SUITE("reader: malformed input") {
             {mesh + "[0 0 0 1 0 0 0 @ 0]", "1e9", "1.1e9"},
             {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [0 1 @]", "2", "3"},
             {mesh + "[0 0 0 1 0 0 0 1 0] 'integer indices' [@ 1 2]", "0", "-1"},
+            // A shape is whole where pbrt clamps its limits to the whole.
+            {ball + "'float zmin' @", "-2", "-.99"},
+            {ball + "'float zmax' -1 'float zmin' @", "1", ".5"},
+            {ball + "'float phimax' @", "360.5", "359"},
+            {"Shape 'disk' 'float innerradius' @", "0", "-.5"},
             {board + "'float uscale' @", "1e9", "1.1e9"},
             {"Scale 1e-20 1e-20 @ " + lit, "1.1e-20", ".9e-20"},
             {"Transform [1 0 0 @ 0 1 0 0 0 0 1 0 0 0 0 1] " + lit, ".9e-6", "1.1e-6"},

@@ -21,9 +21,12 @@ using Wrap = Texture::Wrap;
 
 /// The green channel of the picture at (s, t), as its definition says: each texel, those beside the
 /// picture too, weighs as much as a tent of two texels' width around its middle is high there.
-double yardstick(const TexturePicture& picture, Wrap wrap, double s, double t) {
+double yardstick(const TexturePicture& picture, Wrap wrap, bool nearest, double s, double t) {
     double x = s * picture.width, y = (1 - t) * picture.height, sum = 0;
-    auto weight = [&](double from_middle) { return std::max(0.0, 1 - std::abs(from_middle)); };
+    auto weight = [&](double from_middle) {
+        return nearest ? double(std::abs(from_middle) < 0.5)
+                       : std::max(0.0, 1 - std::abs(from_middle));
+    };
     auto inside = [&](long i, long n) {
         while (wrap == Wrap::repeat && i < 0) i += n;
         while (wrap == Wrap::repeat && i >= n) i -= n;
@@ -106,6 +109,7 @@ TEST_SUITE("textures") {
             Texture texture;
             texture.kind = Texture::Kind::picture;
             texture.wrap = Wrap{static_cast<uint8_t>(random.u1() * 3)};
+            texture.nearest = random.u1() < 0.5f;
             texture.inverted = random.u1() < 0.5f;
             texture.value = {0.7f, 0.7f, 0.7f};
             Vec2 uv = {4 * random.u1() - 2, 4 * random.u1() - 2};
@@ -116,7 +120,12 @@ TEST_SUITE("textures") {
             textures.pictures = {{1, 1, {{9, 9, 9}}}, picture};
             double s = double{texture.scale.x} * double{uv.x} + double{texture.shift.x};
             double t = double{texture.scale.y} * double{uv.y} + double{texture.shift.y};
-            double truth = double{0.7f} * yardstick(picture, texture.wrap, s, t);
+            auto near_an_edge = [](double x) { return std::abs(x - std::round(x)) < 1e-4; };
+            if (texture.nearest &&
+                (near_an_edge(s * picture.width) || near_an_edge((1 - t) * picture.height))) {
+                continue;
+            }
+            double truth = double{0.7f} * yardstick(picture, texture.wrap, texture.nearest, s, t);
             if (texture.inverted) truth = 1 - truth;
             worst = std::max(worst, std::abs(double{value_at(textures, 0, uv).g} - truth));
         }
@@ -134,8 +143,9 @@ TEST_SUITE("textures") {
         check(plain, 0.25f, 0.25f, blue), check(plain, 0.75f, 0.25f, white);
         Scene moved = gallery.scene(square_with_uv,
                                     "'string filter' 'point' 'float uscale' 2 'float udelta' 0.5");
-        check(moved, 0.125f, 0.75f, green), check(moved, 0.375f, 0.75f, red);
-        Scene inverted = gallery.scene(square_with_uv, "'bool invert' true 'float scale' 0.5");
+        check(moved, 0.1f, 0.75f, green), check(moved, 0.3f, 0.75f, red);
+        Scene inverted = gallery.scene(
+            square_with_uv, "'string filter' 'point' 'bool invert' true 'float scale' 0.5");
         check(inverted, 0.25f, 0.75f, {0.5f, 1, 1});
         CHECK(inverted.materials[inverted.shapes[0].material].reflectance == white);  // at most
         // The way of chapter 05.
@@ -246,7 +256,7 @@ TEST_SUITE("textures") {
         }
     }
 
-    TEST_CASE("truth: codes of a .png are sRGB or linear, and a .pfm has none") {
+    TEST_CASE("truth: codes of a .png are sRGB, linear, or a power, and a .pfm has none") {
         Image grey(1, 1);
         grey.pixels = {{0.5f, 0.5f, 0.5f}};
         Gallery gallery(grey);
@@ -258,8 +268,10 @@ TEST_SUITE("textures") {
         double code = 188 / 255.0;
         CHECK(near(value("", "a.png"), std::pow((code + 0.055) / 1.055, 2.4)));
         CHECK(near(value("linear", "a.png"), code));
-        CHECK(near(value("linear", "a.pfm"), 0.5));
-        CHECK_THROWS_AS(value("srgb", "a.png"), InputError);
+        CHECK(near(value("gamma 3", "a.png"), code * code * code));
+        CHECK(near(value("gamma 3", "a.pfm"), 0.5));
+        for (const char* none : {"srgb", "gamma 101", "gamma x"})
+            CHECK_THROWS_AS(value(none, "a.png"), InputError);
     }
 
     TEST_CASE("truth: checkerboards, constant textures, and metal") {
