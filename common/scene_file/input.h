@@ -38,8 +38,12 @@ const auto& look_up(const Map& map, const std::string& name, const std::string& 
 }
 
 /// The bytes of a scene file, unpacked if they are packed by gzip; throws InputError when it cannot
-/// be read.
+/// be read, and at once for what is no file: a device or a pipe may never end.
 inline std::string read_scene_file(const std::string& path) {
+    std::error_code none;
+    std::filesystem::file_status status = std::filesystem::status(file_path(path), none);
+    if (std::filesystem::is_other(status))
+        fail({path}, "cannot read: a device or a pipe and no file");
     std::string bytes = read_file(path);
     return unpack_gzip(path, bytes);
 }
