@@ -154,6 +154,8 @@ TEST_SUITE("films of parts") {
         TemporaryFolder copy, folder;
         for (const char* name : {"Makefile", "common", "chapters"})
             fs::copy(name, copy / name, fs::copy_options::recursive);
+        fs::create_directory(copy / "tests");
+        fs::copy("tests/rules.mk", copy / "tests");
         auto hashes = [&] {
             Process make(Words{"env", "-u", "MAKEFLAGS", "-u", "MAKELEVEL", "make", "-C",
                                copy.path(), "--quiet", "-B", "BUILD=build",
