@@ -32,7 +32,7 @@ comparing := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp test
 checkers  := $(comparing) $(support)
 # What the tests of chapters from 07 on begin with, compiled in advance, with the flags that tests/check/check compiles with. g++
 # takes a header for the one in here only if its time is the same: not that of another folder, from ccache.
-$(BUILD)/check/support.h: $(BUILD)/flags
+$(BUILD)/check/support.h: tests/rules.mk $(BUILD)/flags
 	@mkdir -p $(@D); printf '#include %s\n' '<doctest/doctest.h>' '"tests/support/gates.h"' '"tests/support/scenes.h"' >$@
 $(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
 	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -Dflatten= -MMD -MP -MF $(BUILD)/obj/check_support.d \
