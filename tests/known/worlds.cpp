@@ -6,7 +6,8 @@
 
 namespace {
 
-/// Random numbers, from a hash of their index.
+/// Random numbers, from a hash of their index. No expression below draws two of them: compilers
+/// differ in the order in which they evaluate a sum or arguments, and would make other worlds.
 class Dice {
 public:
     explicit Dice(uint32_t seed) : seed_(seed) {}
@@ -40,12 +41,13 @@ struct World {
     }
     /// A checkered ball or disk.
     std::string checkered(int number) {
+        std::string shape = dice.chance(0.5) ? ball(1) : "Shape \"disk\"\n";
+        std::string size = scale(dice.power(0.1, 1)), where = place(0.1, 1.5);
+        std::string color2 = dice.rgb(0, 0.9), color1 = dice.rgb(0, 0.9);
         return format("Texture \"%d\" \"spectrum\" \"checkerboard\" ", number) +
-               "\"float uscale\" 6 \"float vscale\" 4 \"rgb tex1\" " + dice.rgb(0, 0.9) +
-               " \"rgb tex2\" " + dice.rgb(0, 0.9) +
-               format(" Material \"diffuse\" \"texture reflectance\" \"%d\" ", number) +
-               place(0.1, 1.5) + scale(dice.power(0.1, 1)) +
-               (dice.chance(0.5) ? ball(1) : "Shape \"disk\"\n");
+               "\"float uscale\" 6 \"float vscale\" 4 \"rgb tex1\" " + color1 + " \"rgb tex2\" " +
+               color2 + format(" Material \"diffuse\" \"texture reflectance\" \"%d\" ", number) +
+               where + size + shape;
     }
     std::string roughness() {
         if (chapter < 13 || dice.chance(0.3)) return "";
@@ -53,13 +55,16 @@ struct World {
                       dice.power(0.001, 0.9));
     }
     std::string material() {
-        switch (dice.below(8)) {
+        int kind = dice.below(8);
+        std::string rough = kind < 2 ? roughness() : "";
+        std::string k = kind == 1 ? dice.rgb(1, 3) : "";
+        switch (kind) {
             case 0:
-                return "Material \"conductor\" \"rgb reflectance\" " + dice.rgb(0.5, 1) +
-                       roughness() + "\n";
+                return "Material \"conductor\" \"rgb reflectance\" " + dice.rgb(0.5, 1) + rough +
+                       "\n";
             case 1:
                 return "Material \"conductor\" \"rgb eta\" " + dice.rgb(0.5, 2) + " \"rgb k\" " +
-                       dice.rgb(1, 3) + roughness() + "\n";
+                       k + rough + "\n";
             case 2:
                 return format("Material \"dielectric\" \"float eta\" %.3g\n", dice.from(1.2, 2));
             case 3:
@@ -79,15 +84,16 @@ struct World {
         }
     }
     std::string place(double near, double far) {
-        return turn(dice.from(0, 360), "0 1 0") +
-               at(dice.power(near, far), dice.power(near, far), 0) +
-               format("Rotate %.4g %.3g %.3g %.3g ", dice.from(0, 360), dice.from(-1, 1),
-                      dice.from(-1, 1), dice.from(0.1, 1));
+        double z = dice.from(0.1, 1), y = dice.from(-1, 1), x = dice.from(-1, 1);
+        double angle = dice.from(0, 360), up = dice.power(near, far), out = dice.power(near, far);
+        return turn(dice.from(0, 360), "0 1 0") + at(out, up, 0) +
+               format("Rotate %.4g %.3g %.3g %.3g ", angle, x, y, z);
     }
     std::string motion() {
         if (chapter < 16 || chapter > 22 || dice.chance(0.6)) return "";
-        return "ActiveTransform EndTime " + at(dice.from(-0.5, 0.5), dice.from(-0.3, 0.3), 0) +
-               turn(dice.from(0, 60), z_axis) + "ActiveTransform All ";
+        double angle = dice.from(0, 60), y = dice.from(-0.3, 0.3), x = dice.from(-0.5, 0.5);
+        return "ActiveTransform EndTime " + at(x, y, 0) + turn(angle, z_axis) +
+               "ActiveTransform All ";
     }
     std::string light() {
         std::string color = dice.rgb(0.2, 1);
@@ -107,14 +113,15 @@ struct World {
                 return group(place(0.3, 3) + "LightSource \"point\" \"rgb I\" " + color + power +
                              "\n");
             case 11:
+                double z = dice.from(-1, 1), y = dice.from(0.2, 1), x = dice.from(-1, 1);
                 return "LightSource \"distant\" \"rgb L\" " + color + power +
-                       format(" \"point3 from\" [%.3g %.3g %.3g] \"point3 to\" [0 0 0]\n",
-                              dice.from(-1, 1), dice.from(0.2, 1), dice.from(-1, 1));
+                       format(" \"point3 from\" [%.3g %.3g %.3g] \"point3 to\" [0 0 0]\n", x, y, z);
         }
         std::string where = dice.chance(0.2) ? place(1, 100) : place(0.1, 3);
+        std::string painted = paint(dice.chance(0.5) ? 0 : 0.4);
         std::string shines = "AreaLightSource \"diffuse\" \"rgb L\" " + color + power +
                              " \"bool twosided\" " + (dice.chance(0.3) ? "true " : "false ") +
-                             paint(dice.chance(0.5) ? 0 : 0.4);
+                             painted;
         double side = dice.power(0.02, 0.8);
         std::string text = group(shines + where + scale(side) + shape());
         if (dice.chance(0.2))  // a lamp as long as it may be
@@ -135,18 +142,19 @@ struct World {
                angle = dice.from(0, 6.283),
                up = dice.chance(0.3) ? -0.5 : dice.from(0.1, 0.9);  // or from below the floor
         if (dice.chance(0.2)) text += scale(dice.power(0.3, 3)) + "\n";
+        double z = dice.from(-0.3, 0.3), y = dice.from(0, 0.5), x = dice.from(-0.3, 0.3);
         text += format("LookAt %.4g %.4g %.4g  %.3g %.3g %.3g  0 1 0\n",
                        size * distance * std::cos(angle), size * distance * up,
-                       size * distance * std::sin(angle), size * dice.from(-0.3, 0.3),
-                       size * dice.from(0, 0.5), size * dice.from(-0.3, 0.3));
+                       size * distance * std::sin(angle), size * x, size * y, size * z);
         text += format("Camera \"perspective\" \"float fov\" %.3g",
                        distance > 5 ? 200 / distance : dice.power(10, 90));
         if (chapter >= 16 && chapter != 20 && dice.chance(0.3))
             text += format(" \"float lensradius\" %.3g \"float focaldistance\" %.3g",
                            size * dice.power(0.01, 0.2), size * distance);
-        if (chapter >= 16 && chapter <= 22 && dice.chance(0.5))
-            text += format(" \"float shutteropen\" %.3g \"float shutterclose\" %.3g",
-                           dice.from(0, 0.4), dice.from(0.5, 1));
+        if (chapter >= 16 && chapter <= 22 && dice.chance(0.5)) {
+            double close = dice.from(0.5, 1), open = dice.from(0, 0.4);
+            text += format(" \"float shutteropen\" %.3g \"float shutterclose\" %.3g", open, close);
+        }
         return text + "\nWorldBegin\n" + scale(size) + "\n";
     }
 };
@@ -157,14 +165,17 @@ std::string random_world(int chapter, uint32_t number) {
     Dice dice(number);
     World world{dice, chapter};
     std::string text = world.camera();
-    text += group(world.diffuse() + scale(dice.power(1, 100)) + square(true));
+    std::string floor = scale(dice.power(1, 100)) + square(true);
+    text += group(world.diffuse() + floor);
     if (dice.chance(0.3)) {  // in a room
         std::string walls = dice.chance(0.5) ? world.diffuse(0.7) : world.material();
         text += group(walls + at(0, 2, 0) + scale(dice.chance(0.5) ? 3 : 6) + "Shape \"sphere\"\n");
     }
-    for (int n = 1 + dice.below(4); n > 0; n--)
-        text += group(world.material() + world.place(0.1, 1.5) + world.motion() +
-                      scale(dice.power(0.05, 0.7)) + world.shape());
+    for (int n = 1 + dice.below(4); n > 0; n--) {
+        std::string shape = world.shape(), size = scale(dice.power(0.05, 0.7));
+        std::string motion = world.motion(), where = world.place(0.1, 1.5);
+        text += group(world.material() + where + motion + size + shape);
+    }
     for (int n = dice.below(3); n > 0; n--) text += group(world.checkered(n));
     int lights = dice.chance(0.1) ? 70 : 1 + dice.below(4);
     for (int n = lights; n > 0; n--) text += world.light();
