@@ -100,9 +100,9 @@ inline uint32_t less(Floats a, Floats b) { return mask_of(a < b); }
 inline uint32_t less_equal(Floats a, Floats b) { return mask_of(a <= b); }
 inline uint32_t equal(Ints a, uint32_t b) { return mask_of(a == static_cast<int32_t>(b)); }
 inline Ints lanes_of(LaneOrder order) {
-    Ints from = {};
-    for (int k = 0; k < lanes; k++) from[k] = order >> 4 * k & (lanes - 1);
-    return from;
+    Ints shift;
+    for (int k = 0; k < lanes; k++) shift[k] = 4 * k;
+    return (Ints{} + static_cast<int>(order)) >> shift & (lanes - 1);
 }
 inline constexpr auto set_bits = [] {  // of each mask
     std::array<LaneOrder, 1 << lanes> orders = {};

@@ -131,11 +131,12 @@ inline Emission sample_emission(const Scene& scene, const Endpoints& endpoints, 
 }
 
 /// x with its normals turned to the side of direction w.
-inline Hit seen_from(const Scene& scene, Hit x, Vec3 w) {
-    x.n = smooth_normal(scene, x);
-    if (dot(w, x.ng) < 0) x.n = -x.n, x.ng = -x.ng, x.front = !x.front;
-    if (dot(w, x.n) <= 0) x.n = x.ng;  // a smoothed normal that faces away cannot be used
-    return x;
+inline Hit seen_from(const Scene& scene, const Hit& x, Vec3 w) {
+    Vec3 n = smooth_normal(scene, x), ng = x.ng;
+    bool front = x.front;
+    if (dot(w, ng) < 0) n = -n, ng = -ng, front = !front;
+    if (dot(w, n) <= 0) n = ng;  // a smoothed normal that faces away cannot be used
+    return {x.p, n, ng, x.eps, x.t, x.time, x.material, front, x.light, x.prim};
 }
 
 /// The adjoint BSDF times the cosine: the factor of flux that arrives from wi and leaves to wo.

@@ -173,8 +173,7 @@ bool occluded(const Scene& scene, const Ray& ray) {
     return met;
 }
 
-Vec3 smooth_normal(const Scene& scene, const Hit& x) {
-    if (!scene.has_normals || !(x.n == x.ng)) return x.n;
+Vec3 mesh_normal(const Scene& scene, const Hit& x) {
     const Geometry* g = &scene.geometry;
     uint32_t prim = x.prim;
     Transform world_from_start;

@@ -41,6 +41,11 @@ inline Rgb emission(const Scene& scene, const Hit& x) {
 /// The radiance of the sky in direction wi.
 Rgb sky_towards(const Scene& scene, Vec3 wi);
 
-/// The normal of the mesh at x, smoothed, on the side of x.ng. x.n is the same but where it would
-/// look away from the ray that found x: there finish_hit() has put x.ng in its place.
-Vec3 smooth_normal(const Scene& scene, const Hit& x);
+/// The normal of the mesh at x, smoothed, on the side of x.ng; x.ng if it has none.
+Vec3 mesh_normal(const Scene& scene, const Hit& x);
+
+/// The same for any surface. That is x.n but where x.n would look away from the ray that found x:
+/// there finish_hit() has put x.ng in its place.
+inline Vec3 smooth_normal(const Scene& scene, const Hit& x) {
+    return scene.has_normals && x.n == x.ng ? mesh_normal(scene, x) : x.n;
+}
