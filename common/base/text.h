@@ -124,15 +124,21 @@ inline std::optional<int> to_integer(std::string_view text) {
     return value;
 }
 
+/// What std::printf would print, at most 511 bytes of it.
+template <class... Args>
+std::string formatted(const char* pattern, Args... args) {
+    char text[512];
+    std::snprintf(text, sizeof text, pattern, args...);
+    return text;
+}
+
 /// A share to three digits: 0.0123 is "1.23 %", 0.99999 is "100 %" and not "1e+02 %", 52 is "5200
 /// %".
 ///
 /// tested by  "truth: large shares are written without an exponent"
 inline std::string percent(double share) {
-    char text[400];
     double value = 100 * share;
-    std::snprintf(text, sizeof text, std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
-    return text;
+    return formatted(std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
 }
 
 /// A text in JSON's quotes, of what can be printed.
@@ -147,8 +153,5 @@ inline std::string json_quoted(std::string_view text) {
 
 /// A number with nine digits; null for what is not finite.
 inline std::string json_number(double value) {
-    if (!std::isfinite(value)) return "null";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    return std::isfinite(value) ? formatted("%.9g", value) : "null";
 }

@@ -190,9 +190,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
 std::string digits(double x, int significant) {
     if (std::isnan(x)) return "unknown";
     if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*g", significant, x);
-    return text;
+    return formatted("%.*g", significant, x);
 }
 
 /// A line for the names of the columns and for each row.
@@ -233,10 +231,6 @@ void write_results(const TableOptions& options, const Table& table, const std::s
     if (!options.quiet) std::printf("%s\n%s", aligned(table).c_str(), notes.c_str());
     std::vector<Output> outputs;
     for (const std::string& path : options.out)
-        outputs.push_back({path, [&] {
-                               if (!has_ending(path, ".tsv"))
-                                   return write_image(path, picture, options.comment);
-                               write_file_atomically(path, tab_separated(table));
-                           }});
+        outputs.push_back({path, [&] { write_image(path, picture, options.comment); }});
     write_outputs(outputs);
 }
