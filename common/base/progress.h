@@ -31,9 +31,11 @@ public:
         if (!lock || Clock::now() - last_ < pause_) return;
         last_ = Clock::now();
         share = std::clamp(share, 0.0, 1.0);
-        const char* pattern = std::isnan(seconds) ? " ... %2.0f %%" : " ... %2.0f %%, %.0f s left";
-        std::string text =
-            printable(what) + formatted(pattern, 100 * share, seconds / share - seconds);
+        char numbers[100];
+        std::snprintf(numbers, sizeof numbers,
+                      std::isnan(seconds) ? " ... %2.0f %%" : " ... %2.0f %%, %.0f s left",
+                      100 * share, seconds / share - seconds);
+        std::string text = printable(what) + numbers;
         tell(is_terminal_ ? "\r" + text + "\033[K" : text + "\n");
         is_shown_ = is_terminal_;
     }

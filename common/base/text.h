@@ -55,6 +55,15 @@ inline std::string quote(std::string_view word, size_t longest = 60) {
 /// The name of a file in quotes. Only what is too long for one is cut: the end says which it is.
 inline std::string quote_file(const std::string& name) { return quote(name, 4096); }
 
+/// "a, b and c", where `last` is " and ".
+inline std::string listed(const std::vector<std::string>& words, const std::string& last = ", ",
+                          const std::string& between = ", ") {
+    std::string text;
+    for (size_t i = 0; i < words.size(); i++)
+        text += (i == 0 ? "" : i + 1 < words.size() ? between : last) + words[i];
+    return text;
+}
+
 /// How many letters must be inserted, deleted or replaced to turn a into b.
 inline size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<size_t> row(b.size() + 1);
@@ -124,10 +133,10 @@ inline std::optional<int> to_integer(std::string_view text) {
     return value;
 }
 
-/// What std::printf would print, at most 511 bytes of it.
-template <class... Args>
-std::string formatted(const char* pattern, Args... args) {
-    char text[512];
+/// What printf would print, up to 999 bytes of it.
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+    char text[1000];
     std::snprintf(text, sizeof text, pattern, args...);
     return text;
 }
@@ -138,7 +147,7 @@ std::string formatted(const char* pattern, Args... args) {
 /// tested by  "truth: large shares are written without an exponent"
 inline std::string percent(double share) {
     double value = 100 * share;
-    return formatted(std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
+    return format(std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
 }
 
 /// A text in JSON's quotes, of what can be printed.
@@ -153,5 +162,5 @@ inline std::string json_quoted(std::string_view text) {
 
 /// A number with nine digits; null for what is not finite.
 inline std::string json_number(double value) {
-    return std::isfinite(value) ? formatted("%.9g", value) : "null";
+    return std::isfinite(value) ? format("%.9g", value) : "null";
 }

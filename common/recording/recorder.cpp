@@ -6,7 +6,7 @@
 namespace {
 
 std::string triple(float a, float b, float c) {
-    return formatted("(%.6g, %.6g, %.6g)", double{a}, double{b}, double{c});
+    return format("(%.6g, %.6g, %.6g)", double{a}, double{b}, double{c});
 }
 std::string to_text(Vec3 v) { return triple(v.x, v.y, v.z); }
 std::string to_text(Rgb c) { return triple(c.r, c.g, c.b); }
@@ -14,12 +14,12 @@ std::string to_text(Rgb c) { return triple(c.r, c.g, c.b); }
 constexpr const char* material_names[] = {"diffuse", "conductor", "dielectric"};
 
 std::string depth_limit(const PathStory& story) {
-    return formatted("the depth limit, %d scattering events", story.max_depth);
+    return format("the depth limit, %d scattering events", story.max_depth);
 }
 
 /// Why a path ends at a vertex, where no next direction was sampled.
 std::string end_at_vertex(const PathStory& story, const Hit& x, size_t number) {
-    std::string vertex = formatted("vertex %zu", number);
+    std::string vertex = format("vertex %zu", number);
     bool diffuse = x.material->type == MaterialType::diffuse;
     if (diffuse && is_black(x.material->reflectance)) return vertex + " is black: it absorbs all";
     if (diffuse && story.gathers) return "photons around " + vertex + " tell the rest";
@@ -51,7 +51,7 @@ void Recorder::note_start_at_light(Vec3 p) {
     at_light_ = true;
     vertices_.push_back({p, -2});
     if (story_)
-        story_->step(formatted("vertex %zu  a light at ", vertices_.size()) + to_text(p) + "\n");
+        story_->step(format("vertex %zu  a light at ", vertices_.size()) + to_text(p) + "\n");
 }
 
 void Recorder::note_start_at_eye() {
@@ -73,9 +73,9 @@ void Recorder::note_vertex(const Hit& x) {
     size_t shown = vertices_.size(), limit = static_cast<size_t>(story_->max_depth);
     bool at_limit = at_light_ && from_light_.size() + 1 == limit;
     story_->step(
-        formatted("vertex %zu  %s at ", shown, material_names[static_cast<int>(x.material->type)]) +
+        format("vertex %zu  %s at ", shown, material_names[static_cast<int>(x.material->type)]) +
             to_text(x.p) + ", n " + to_text(x.n) +
-            formatted(", %s, distance %.6g\n", x.front ? "front" : "back", double{x.t}),
+            format(", %s, distance %.6g\n", x.front ? "front" : "back", double{x.t}),
         at_limit ? depth_limit(*story_) : end_at_vertex(*story_, x, shown));
 }
 
@@ -96,23 +96,23 @@ void Recorder::note_scatter(Vec3 wi, Rgb f, float pdf_w, bool specular, Rgb beta
         beta_.push_back(beta);
     }
     if (!story_) return;
-    story_->step("    goes on along wi " + to_text(wi) + ": f " + to_text(f) +
-                     formatted(" sr^-1, pdf_w %.6g%s, beta ", double{pdf_w},
-                               specular ? " (delta)" : " sr^-1") +
-                     to_text(beta) + "\n",
-                 "roulette stops it");
+    story_->step(
+        "    goes on along wi " + to_text(wi) + ": f " + to_text(f) +
+            format(" sr^-1, pdf_w %.6g%s, beta ", double{pdf_w}, specular ? " (delta)" : " sr^-1") +
+            to_text(beta) + "\n",
+        "roulette stops it");
 }
 
 void Recorder::note_roulette(float q, Rgb beta) {
     if (!at_light_) beta_[depth_ - 1] = beta;
     if (!story_) return;
-    std::string line = formatted("    survives roulette, q %.6g, beta ", double{q}) + to_text(beta);
+    std::string line = format("    survives roulette, q %.6g, beta ", double{q}) + to_text(beta);
     story_->step(q < 1 ? line + "\n" : "");
 }
 
 void Recorder::note_step_back() {
     depth_--;
-    if (story_) story_->step(formatted("    steps back to vertex %d\n", eye_vertex(depth_)));
+    if (story_) story_->step(format("    steps back to vertex %d\n", eye_vertex(depth_)));
 }
 
 void Recorder::note_cut() {
@@ -134,7 +134,7 @@ void Recorder::note_direct(Rgb Ld, Vec3 wi, float pdf_l, float pdf_b, float mis_
     if (is_black(Ld)) return;
     if (story_)
         story_->add("    samples a light along wi " + to_text(wi) +
-                    formatted(": pdf_l %.6g, pdf_b %.6g sr^-1\n", double{pdf_l}, double{pdf_b}));
+                    format(": pdf_l %.6g, pdf_b %.6g sr^-1\n", double{pdf_l}, double{pdf_b}));
     keep({class_of("LD", depth_), beta() * Ld, Contribution::own_pixel, eye_vertex(depth_),
           "light sampled", mis_l});
 }
@@ -164,5 +164,5 @@ void Recorder::keep(const Contribution& added) {
     contributions_.push_back(added);
     if (story_)
         story_->add("    " + added.way + ": adds " + to_text(added.L) +
-                    formatted(", mis %.6g, class ", double{added.mis}) + added.path_class + "\n");
+                    format(", mis %.6g, class ", double{added.mis}) + added.path_class + "\n");
 }

@@ -19,8 +19,8 @@ constexpr const char *path = "fill='#c03' stroke='#c03' stroke-width='2'",
 
 /// Words with a contrasting outline, in the SVG format; `at`: left end of their base line.
 std::string words(Vec2 at, const std::string& words) {
-    return formatted("<text x='%.1f' y='%.1f' font-family='sans-serif' font-size='13' ",
-                     double{at.x}, double{at.y}) +
+    return format("<text x='%.1f' y='%.1f' font-family='sans-serif' font-size='13' ", double{at.x},
+                  double{at.y}) +
            "stroke='white' stroke-width='3' paint-order='stroke'>" + words + "</text>\n";
 }
 
@@ -91,7 +91,7 @@ void draw_scene(std::string& svg, const Panel& panel, const Scene& scene) {
         Rgb colour = diffuse ? hit->material->reflectance : Rgb{0.5f, 0.6f, 0.65f};
         pixel = shines ? Rgb{1, 0.75f, 0.05f} : (0.25f - 0.75f * dot(ray.d, hit->n)) * colour;
     }
-    svg += formatted("<image width='%d' height='%d' opacity='0.6' ", panel.width, panel.height);
+    svg += format("<image width='%d' height='%d' opacity='0.6' ", panel.width, panel.height);
     svg += "href='data:image/png;base64," + base64(encode_png(image, "")) + "'/>\n";
 }
 
@@ -102,14 +102,14 @@ void draw_line(std::string& svg, const Panel& panel, Vec3 a, Vec3 b, const char*
     if (za < near) a = a + (near - za) / (zb - za) * (b - a);
     if (zb < near) b = b + (near - zb) / (za - zb) * (a - b);
     Vec2 from = panel.project(a), to = panel.project(b);
-    svg += formatted("<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' %s/>\n", double{from.x},
-                     double{from.y}, double{to.x}, double{to.y}, style);
+    svg += format("<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' %s/>\n", double{from.x},
+                  double{from.y}, double{to.x}, double{to.y}, style);
 }
 
 void draw_point(std::string& svg, const Panel& panel, Vec3 p, const std::string& name) {
     if (!(panel.depth(p) > 0)) return;
     Vec2 at = panel.project(p);
-    svg += formatted("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, path);
+    svg += format("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, path);
     svg += words({at.x + 6, at.y - 6}, name);
 }
 
@@ -124,14 +124,14 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
     Box box = {eye, eye};
     for (const PathVertex& x : vertices) box.add(x.p);
     std::string svg;
-    svg += formatted("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n",
-                     double{2 * side + 3 * margin}, double{side + margin + 56});
+    svg += format("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n",
+                  double{2 * side + 3 * margin}, double{side + margin + 56});
     svg += "<rect width='100%' height='100%' fill='white'/>\n";
     float left = margin;
     for (const Panel& panel : {by_camera, panel_from_above(scene, box)}) {
-        svg += formatted("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='0 0 %d %d'>\n",
-                         double{left}, double{margin}, panel.width, panel.height, panel.width,
-                         panel.height);
+        svg += format("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='0 0 %d %d'>\n",
+                      double{left}, double{margin}, panel.width, panel.height, panel.width,
+                      panel.height);
         draw_scene(svg, panel, scene);
         for (const auto& [ray, shadow, met, t] : rays) {
             if (met && !shadow) continue;  // leads to the next vertex

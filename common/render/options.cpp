@@ -80,13 +80,6 @@ std::vector<int> split_numbers(const std::string& text, char separator) {
     return numbers;
 }
 
-std::string listed(const std::vector<std::string>& words, const std::string& last) {
-    std::string text;
-    for (size_t i = 0; i < words.size(); i++)
-        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : last) + words[i];
-    return text;
-}
-
 std::string command_line(int argc, char** argv) {
     constexpr auto plain_letters =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";

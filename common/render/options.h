@@ -35,9 +35,6 @@ std::vector<Option> parse_options(int argc, char** argv, const std::string& posi
 [[noreturn]] void fail_value(const std::string& option, const std::string& text,
                              const std::string& wanted);
 
-/// "a, b and c", where `last` is " and ".
-std::string listed(const std::vector<std::string>& words, const std::string& last);
-
 /// The whole numbers in a text such as "256x256"; none if it has another form.
 std::vector<int> split_numbers(const std::string& text, char separator);
 

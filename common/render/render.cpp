@@ -263,7 +263,7 @@ Notes film_options(const Scene& scene, const RenderOptions& o) {
     Notes options = {{"chapter", o.name},
                      {"code", code_hash(o.name)},
                      {"scene", printable(file_name(file_path(scene.origin->file).filename()))},
-                     {"checksum", formatted("%016" PRIx64, scene.origin->checksum)},
+                     {"checksum", format("%016" PRIx64, scene.origin->checksum)},
                      {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
                      {"max-depth", std::to_string(scene.max_depth)},
                      {"sampler", samplers[static_cast<size_t>(o.sampler)]},

@@ -28,7 +28,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     };
     auto add_texts = [&](const std::string& name, std::vector<std::string> texts) {
         for (std::string& text : texts) text = json_quoted(text);
-        add(name, '[' + listed(texts, ", ") + ']');
+        add(name, '[' + listed(texts) + ']');
     };
     add("scene", json_quoted(scene.origin->file));
     add("spp", json_number(r.film.spp()));
@@ -190,7 +190,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
 std::string digits(double x, int significant) {
     if (std::isnan(x)) return "unknown";
     if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    return formatted("%.*g", significant, x);
+    return format("%.*g", significant, x);
 }
 
 /// A line for the names of the columns and for each row.
