@@ -64,32 +64,27 @@ inline std::string listed(const std::vector<std::string>& words, const std::stri
     return text;
 }
 
-/// How many letters must be inserted, deleted or replaced to turn a into b.
-inline size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (char letter : a) {
-        size_t diagonal = row[0]++;
-        for (size_t j = 0; j < b.size(); j++) {
-            size_t replaced = diagonal + (letter != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({diagonal + 1, row[j] + 1, replaced});
-        }
-    }
-    return row.back();
-}
-
-/// The known word nearest to `word`; empty when none is closer than half its length. Only the first
-/// 64 letters of the word count, since longer searches take seconds.
+/// The known word nearest to `word`, by the number of letters to insert, delete or replace; empty
+/// when none is closer than half its length. Only the first 64 letters of the word count, since
+/// longer searches take seconds.
 inline std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
     word = word.substr(0, 64);
     std::string nearest;
     size_t best = word.size() / 2 + 1;
     for (const std::string& candidate : known) {
         if (candidate.size() >= word.size() + best) continue;  // as many letters to insert
-        size_t distance = edit_distance(word, candidate);
-        if (distance < best) {
-            best = distance;
+        std::vector<size_t> row(candidate.size() + 1);
+        std::iota(row.begin(), row.end(), size_t{0});
+        for (char letter : word) {
+            size_t diagonal = row[0]++;
+            for (size_t j = 0; j < candidate.size(); j++) {
+                size_t replaced = diagonal + (letter != candidate[j]);
+                diagonal = row[j + 1];
+                row[j + 1] = std::min({diagonal + 1, row[j] + 1, replaced});
+            }
+        }
+        if (row.back() < best) {
+            best = row.back();
             nearest = candidate;
         }
     }

@@ -5,11 +5,10 @@
 
 namespace {
 
-std::string triple(float a, float b, float c) {
-    return format("(%.6g, %.6g, %.6g)", double{a}, double{b}, double{c});
+std::string to_text(Vec3 v) {
+    return format("(%.6g, %.6g, %.6g)", double{v.x}, double{v.y}, double{v.z});
 }
-std::string to_text(Vec3 v) { return triple(v.x, v.y, v.z); }
-std::string to_text(Rgb c) { return triple(c.r, c.g, c.b); }
+std::string to_text(Rgb c) { return to_text(Vec3{c.r, c.g, c.b}); }
 
 constexpr const char* material_names[] = {"diffuse", "conductor", "dielectric"};
 

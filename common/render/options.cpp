@@ -240,7 +240,6 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
 
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n) {
     TableOptions o;
-    o.name = name;
     o.n = n;
     std::vector<Option> options = {
         whole_option("n", "N", "samples", 1, int64_t{1} << 40, o.n),

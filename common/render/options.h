@@ -149,7 +149,6 @@ std::string parse_picture(const std::string& option, const std::string& text);
 
 /// The options of the chapters without a scene (01 to 04).
 struct TableOptions {
-    std::string name;
     std::string comment;  // for the picture; see picture/film.h
     uint64_t n = 0;
     uint32_t seed = 0;
@@ -183,11 +182,5 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,
                    const Image& picture);
 
-/// Seconds of processor time since construction: other programs on the machine do not count.
-class Stopwatch {
-public:
-    double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
-
-private:
-    std::clock_t start_ = std::clock();
-};
+/// Seconds of processor time so far: other programs on the machine do not count.
+inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

@@ -319,7 +319,7 @@ void mark_lamp_edges(const Scene& scene, int threads, Film& film) {
 
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering) {
     if (options.film.empty()) return;
-    rendering.film_lock = std::make_shared<FileLock>(options.film);
+    rendering.film_lock = lock_of(options.film);
     std::error_code none;
     bool is_there = std::filesystem::file_size(file_path(options.film), none) > 0 && !none;
     if (!is_there) return save_film(scene, options, rendering);
@@ -404,7 +404,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Me
     }
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
-    result.stats.interrupted = limit.interrupted();
+    result.stats.interrupted = stop_requested;
     return result;
 }
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -57,11 +56,7 @@ public:
     Limit(const Limit&) = delete;
     Limit& operator=(const Limit&) = delete;
 
-    bool reached() const { return interrupted() || (seconds_ > 0 && elapsed() >= seconds_); }
-    bool interrupted() const { return stop_requested; }
-    /// Whether it was interrupted; resets it, so that the signal ends one part of the work but not
-    /// the next.
-    bool take_interruption() { return stop_requested.exchange(false); }
+    bool reached() const { return stop_requested || (seconds_ > 0 && elapsed() >= seconds_); }
     /// Whether overdue() has found the limit reached; at most a few rays late.
     bool seen() const { return reached_at_ != 0; }
     /// Whether it was reached some time ago. Until then, samples that have started are finished:
@@ -110,7 +105,7 @@ struct Rendering {
                                           // for all classes longer than 8 letters
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::vector<std::string> warnings = {};  // of the chapter's own
-    std::shared_ptr<FileLock> film_lock = {};
+    FileLock film_lock = {};
 };
 
 /// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a

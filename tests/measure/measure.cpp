@@ -78,9 +78,9 @@ Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOpti
     o.quiet = true;
     if (classes) o.split = "in memory";
     scene.spp = spp;
-    Stopwatch watch;
+    double start = cpu_seconds();
     Rendering r = render(method, scene, o);
-    r.stats.seconds = watch.seconds() / options.threads;
+    r.stats.seconds = (cpu_seconds() - start) / options.threads;
     if (r.stats.interrupted) throw InputError("error: interrupted");
     return r;
 }
