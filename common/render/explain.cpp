@@ -195,9 +195,8 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
     bool is_taken = options.time > 0 || halves || s < scene.spp;
     if (x >= scene.width || y >= scene.height || !is_taken)
         fail_value("explain", options.explain->text(),
-                   "a pixel of " + std::to_string(scene.width) + "x" +
-                       std::to_string(scene.height) + " and one of " + std::to_string(scene.spp) +
-                       " samples, which count from 0");
+                   format("a pixel of %dx%d and one of %d samples, which count from 0", scene.width,
+                          scene.height, scene.spp));
     size_t pixel = static_cast<size_t>(y * scene.width + x);
 
     // Trace the sample just as render_film does, and record all of it.

@@ -132,8 +132,6 @@ static std::string project_file(const std::string& program, const std::string& n
 /// Throws UsageError for values that are wrong, and for options that cannot be combined.
 static void check(const RenderOptions& o) {
     ClassFilter{o.paths};
-    // At shorter intervals nothing would be rendered between two writings.
-    if (o.film_every < 0.01) throw UsageError("error: --film-every takes at least 0.01 seconds");
     if (o.film.empty() && o.parts > 1)
         throw UsageError("error: --part needs --film, or its samples could not be merged");
     if (!o.film.empty() && !has_ending(o.film, film_ending))

@@ -41,14 +41,11 @@ std::vector<int> split_numbers(const std::string& text, char separator);
 /// An option that sets a whole number within [low, high]. Its default is what it is now.
 template <class Number>
 Option whole_option(const std::string& name, const std::string& argument, const std::string& help,
-                    int64_t low, int64_t high, Number& number) {
+                    double low, double high, Number& number) {
     auto set = [=, &number](const std::string& text) {
         double value = to_number(text).value_or(NAN);
-        if (!(value == std::floor(value) && value >= static_cast<double>(low) &&
-              value <= static_cast<double>(high)))
-            fail_value(
-                name, text,
-                "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+        if (!(value == std::floor(value) && value >= low && value <= high))
+            fail_value(name, text, format("a whole number from %.0f to %.0f", low, high));
         number = static_cast<Number>(value);
     };
     return {name, argument, help, set, std::to_string(number)};

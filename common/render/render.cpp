@@ -31,7 +31,8 @@ struct TileRenderer {
     const Limit& limit;
     const SampleRange wanted;
     Rendering& result;
-    double interval = options.film.empty() ? HUGE_VAL : options.film_every;  // s
+    // s; if it were shorter, nothing would be rendered in between
+    double interval = options.film.empty() ? HUGE_VAL : std::max(options.film_every, 0.01);
     double next_save = limit.elapsed() + interval;
 
     const bool chooses = !options.paths.empty() || !options.strategy.empty();
@@ -283,10 +284,9 @@ Notes film_options(const Scene& scene, const RenderOptions& o) {
 /// The samples of a pixel that the options ask for: all, or those of a part. Their number is not
 /// limited with --time but without --spp. Throws UsageError if there are more parts than samples.
 SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
-    if (o.parts > scene.spp) {
-        throw UsageError("error: --part: there are " + std::to_string(scene.spp) +
-                         " samples, too few for " + std::to_string(o.parts) + " parts");
-    }
+    if (o.parts > scene.spp)
+        throw UsageError(format("error: --part: there are %d samples, too few for %d parts",
+                                scene.spp, o.parts));
     bool is_endless = o.time > 0 && o.spp == 0 && o.parts == 1;  // until the time is up
     if (is_endless) return {o.seed, 0, PixelSum::most};
     int spp = o.time > 0 && o.spp > 0 ? o.spp : scene.spp;

@@ -53,8 +53,6 @@ public:
     ~Limit() {
         if (--alive == 0) release_stop_signals();
     }
-    Limit(const Limit&) = delete;
-    Limit& operator=(const Limit&) = delete;
 
     bool reached() const { return stop_requested || (seconds_ > 0 && elapsed() >= seconds_); }
     /// Whether overdue() has found the limit reached; at most a few rays late.

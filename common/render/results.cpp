@@ -161,10 +161,9 @@ void check_outputs(const Scene& scene, const RenderOptions& options) {
 std::string mean_and_error(const Film& film) {
     double mean = film.mean(), error = film.standard_error();
     if (!std::isfinite(mean)) return "mean unknown: not all samples are finite";
-    if (std::isnan(error))
-        return "mean " + std::to_string(mean) + ", standard error unknown" +
-               (film.spp() > 1 ? "" : " (1 sample)");
-    return "mean " + std::to_string(mean) + " +- " + std::to_string(error);
+    const char* why = film.spp() > 1 ? "" : " (1 sample)";
+    if (std::isnan(error)) return format("mean %f, standard error unknown%s", mean, why);
+    return format("mean %f +- %f", mean, error);
 }
 
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {

@@ -436,8 +436,7 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
         sum > 0 && counts.largest > too_much * sum,
         "one sample contains " + percent(counts.largest / sum) + " of the whole picture" + place);
     lines.warn(has_noise && effective > 0 && effective < few_samples,
-               "as few as " + std::to_string(std::lround(effective)) +
-                   " samples determine the picture" + is_larger);
+               format("as few as %.0f samples determine the picture", effective) + is_larger);
     lines.warn(has_noise && one_in_many && effective >= few_samples,
                "a few bright samples determine the error" + is_larger);
     lines.warn(film.has_batches() && film.spp() > 1 && film.spp() < few_audits,
