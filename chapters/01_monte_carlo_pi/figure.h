@@ -16,9 +16,9 @@ inline Table darts_table(uint64_t n, uint32_t seed) {
     double seconds = 0;
     for (uint64_t rows = 1; stats.count() < n; rows *= 4) {
         uint64_t N = std::min(n, rows);
-        Stopwatch watch;
+        double start = cpu_seconds();
         stats.merge(throw_darts(score_dart, stats.count(), N, seed));
-        seconds += watch.seconds();
+        seconds += cpu_seconds() - start;
         // If all darts are equal, the estimated error is 0, but the true error is unknown.
         bool known = stats.variance() > 0, cheap = N <= 1 << 16;
         table.rows.push_back(

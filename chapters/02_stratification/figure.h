@@ -29,7 +29,7 @@ struct Measurement {
 /// The errors of the estimates from `runs` sets of n points.
 inline Measurement measure(PointSet set, uint32_t n, uint32_t runs, uint32_t seed) {
     RunningStats pi_estimate, squares[3];
-    Stopwatch watch;
+    double start = cpu_seconds();
     for (uint32_t run = 0; run < runs; run++) {
         Points points = make_points(set, n, hash32(seed, run));
         double p = (run + 0.5) / runs * (edge_a + edge_b);
@@ -40,7 +40,9 @@ inline Measurement measure(PointSet set, uint32_t n, uint32_t runs, uint32_t see
         squares[2].add(std::pow(ch02::estimate(points, seen) - fraction_seen(p), 2));
     }
     auto root_mean = [&](int k) { return std::sqrt(squares[k].mean()); };
-    return {pi_estimate.mean(), {root_mean(0), root_mean(1), root_mean(2)}, watch.seconds() / runs};
+    return {pi_estimate.mean(),
+            {root_mean(0), root_mean(1), root_mean(2)},
+            (cpu_seconds() - start) / runs};
 }
 
 /// Every kind of points with N = 16, 64, 256, ... up to n, and its efficiency for pi,

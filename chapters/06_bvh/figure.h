@@ -9,9 +9,9 @@ namespace ch06 {
 /// Builds what the step needs and traces the rays, for a tenth of a second or longer.
 inline std::vector<std::string> measure(const Scene& scene, Step step,
                                         const std::vector<Ray>& rays) {
-    Stopwatch watch;
+    double start = cpu_seconds();
     Finder finder = make_finder(scene, step);
-    double build_seconds = watch.seconds();
+    double build_seconds = cpu_seconds() - start;
 
     Work work;
     double traced = 0, seconds = 0;
@@ -19,7 +19,7 @@ inline std::vector<std::string> measure(const Scene& scene, Step step,
     while (seconds < 0.1) {
         for (const Ray& ray : rays) t = find(finder, scene.geometry, ray, work).t;
         traced += static_cast<double>(rays.size());
-        seconds = watch.seconds() - build_seconds;
+        seconds = cpu_seconds() - start - build_seconds;
     }
     static_cast<void>(t);
     auto per_ray = [&](uint64_t count) { return digits(static_cast<double>(count) / traced, 4); };

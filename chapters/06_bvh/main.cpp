@@ -16,9 +16,9 @@ int main(int argc, char** argv) {
         if (!options.quiet) table = ch06::steps_table(scene);
         FilmLabel label = label_of(scene, options);
         label.samples.clear();  // it has none
-        write_results(
-            {options.name, comment_of(notes_of(label, 0)), 0, 0, options.out, options.quiet}, table,
-            "white: 200 boxes and primitives for one ray\n", ch06::work_picture(scene, step));
+        write_results({comment_of(notes_of(label, 0)), 0, 0, options.out, options.quiet}, table,
+                      "white: 200 boxes and primitives for one ray\n",
+                      ch06::work_picture(scene, step));
         return 0;
     });
 }

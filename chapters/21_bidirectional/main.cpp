@@ -6,15 +6,15 @@
 int main(int argc, char** argv) {
     return run_program([&] {
         std::string alone, sheet;
-        Option strategy = {
-            "strategy", "S,T", "only one, without weight: S vertices from the light, T the eye",
-            [&](const std::string& text) {
-                size_t comma = std::min(text.find(','), text.size() - 1);
-                alone = ch21::strategy_name(
-                    static_cast<int>(parse_integer("strategy", text.substr(0, comma), 0, 1000)),
-                    static_cast<int>(parse_integer("strategy", text.substr(comma + 1), 1, 1000)));
-            },
-            "all"};
+        Option strategy = {"strategy", "S,T",
+                           "only one, without weight: S vertices from the light, T the eye",
+                           [&](const std::string& text) {
+                               std::vector<int> ends = split_numbers(text, ',');
+                               if (ends.size() != 2)
+                                   fail_value("strategy", text, "S,T, such as 2,2");
+                               alone = ch21::strategy_name(ends[0], ends[1]);
+                           },
+                           "all"};
         Option pyramid =
             text_option("pyramid", "FILE", "also write all short strategies as one sheet", sheet);
         RenderOptions options =

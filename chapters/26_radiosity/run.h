@@ -208,7 +208,7 @@ inline int run(const Scene& scene, RenderOptions options, const Settings& settin
     // Render.
     Shown shown = show(scene, patches, s, settings.show, options.threads);
     double seconds = limit.elapsed();
-    bool stopped = limit.take_interruption();
+    bool stopped = stop_requested.exchange(false);
     if (options.time > 0) options.time = std::max(0.5, options.time - seconds);
     if (stopped) options.time = 0.5;                // a picture soon
     if (options.time > 0) options.spp = scene.spp;  // else as many as there is time for

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <optional>
 #include <thread>
 
 #include "common/base/error.h"
@@ -72,26 +71,27 @@ std::vector<std::string> errors_of(const std::vector<Output>& outputs) {
 
 }  // namespace
 
-FileLock::FileLock(const std::string& path, const std::string& ending)
-    : name_(file_name(after_links(path)) + ending) {
-    for (int tries = 0; (lock_ = lock_file(name_)) < 0; tries++) {
+FileLock lock_of(const std::string& path, const std::string& ending) {
+    std::string name = file_name(after_links(path)) + ending;
+    int lock = -1;
+    for (int tries = 0; (lock = lock_file(name)) < 0; tries++) {
         if (errno != EWOULDBLOCK) fail(path, "cannot write", errno);
         if (tries >= 50)
             throw InputError(printable(path + ": error: another program is writing it"));
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
+    return {nullptr, [=](void*) { unlock_file(lock, name); }};
 }
-FileLock::~FileLock() { unlock_file(lock_, name_); }
 
 void write_file_atomically(const std::string& path,
                            const std::function<void(std::ostream&)>& write) {
     bool is_replaced = !is_device(path);
     fs::path target = is_replaced ? after_links(path) : file_path(path), part = target;
-    std::optional<FileLock> lock;
+    FileLock lock;
     std::error_code error;
     if (is_replaced) {
         part += ".part";
-        lock.emplace(path, part_lock);
+        lock = lock_of(path, part_lock);
         // It may be a link to another file, and somebody else's.
         fs::remove(part, error);
         if (error) fail(path, "cannot write", error.default_error_condition().value());
@@ -123,7 +123,7 @@ void check_writable(const std::string& path) {
     if (is_device(path)) return;
     std::string why = why_not_replaced(after_links(path));
     if (!why.empty()) throw InputError(printable(path + ": error: cannot write: " + why));
-    FileLock can_be_made(path, part_lock);
+    lock_of(path, part_lock);  // can be made
 }
 
 bool has_ending(const std::string& path, const std::string& ending) {

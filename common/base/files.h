@@ -3,24 +3,16 @@
 #include <cstdint>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// Keeps other programs from a file that this one writes, by a file beside it, which has its name
-/// after all links with this ending. Throws InputError where another program has it, and still
-/// after half a second.
-class FileLock {
-public:
-    explicit FileLock(const std::string& path, const std::string& ending = ".lock");
-    ~FileLock();
-    FileLock(const FileLock&) = delete;
-    FileLock& operator=(const FileLock&) = delete;
-
-private:
-    std::string name_;
-    int lock_ = -1;
-};
+/// Keeps other programs from a file that this one writes, as long as a copy of it lives, by a file
+/// beside it, which has its name after all links with this ending. Throws InputError where another
+/// program has it, and still after half a second.
+using FileLock = std::shared_ptr<void>;
+FileLock lock_of(const std::string& path, const std::string& ending = ".lock");
 
 /// Writes a file beside its place, as NAME.part, and puts it there when it is whole: a full disk or
 /// a kill leaves what was there before. A device or pipe is written to directly. Throws InputError

@@ -55,32 +55,36 @@ inline std::string quote(std::string_view word, size_t longest = 60) {
 /// The name of a file in quotes. Only what is too long for one is cut: the end says which it is.
 inline std::string quote_file(const std::string& name) { return quote(name, 4096); }
 
-/// How many letters must be inserted, deleted or replaced to turn a into b.
-inline size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (char letter : a) {
-        size_t diagonal = row[0]++;
-        for (size_t j = 0; j < b.size(); j++) {
-            size_t replaced = diagonal + (letter != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({diagonal + 1, row[j] + 1, replaced});
-        }
-    }
-    return row.back();
+/// "a, b and c", where `last` is " and ".
+inline std::string listed(const std::vector<std::string>& words, const std::string& last = ", ",
+                          const std::string& between = ", ") {
+    std::string text;
+    for (size_t i = 0; i < words.size(); i++)
+        text += (i == 0 ? "" : i + 1 < words.size() ? between : last) + words[i];
+    return text;
 }
 
-/// The known word nearest to `word`; empty when none is closer than half its length. Only the first
-/// 64 letters of the word count, since longer searches take seconds.
+/// The known word nearest to `word`, by the number of letters to insert, delete or replace; empty
+/// when none is closer than half its length. Only the first 64 letters of the word count, since
+/// longer searches take seconds.
 inline std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
     word = word.substr(0, 64);
     std::string nearest;
     size_t best = word.size() / 2 + 1;
     for (const std::string& candidate : known) {
         if (candidate.size() >= word.size() + best) continue;  // as many letters to insert
-        size_t distance = edit_distance(word, candidate);
-        if (distance < best) {
-            best = distance;
+        std::vector<size_t> row(candidate.size() + 1);
+        std::iota(row.begin(), row.end(), size_t{0});
+        for (char letter : word) {
+            size_t diagonal = row[0]++;
+            for (size_t j = 0; j < candidate.size(); j++) {
+                size_t replaced = diagonal + (letter != candidate[j]);
+                diagonal = row[j + 1];
+                row[j + 1] = std::min({diagonal + 1, row[j] + 1, replaced});
+            }
+        }
+        if (row.back() < best) {
+            best = row.back();
             nearest = candidate;
         }
     }
@@ -124,15 +128,21 @@ inline std::optional<int> to_integer(std::string_view text) {
     return value;
 }
 
+/// What printf would print, up to 999 bytes of it.
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+    char text[1000];
+    std::snprintf(text, sizeof text, pattern, args...);
+    return text;
+}
+
 /// A share to three digits: 0.0123 is "1.23 %", 0.99999 is "100 %" and not "1e+02 %", 52 is "5200
 /// %".
 ///
 /// tested by  "truth: large shares are written without an exponent"
 inline std::string percent(double share) {
-    char text[400];
     double value = 100 * share;
-    std::snprintf(text, sizeof text, std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
-    return text;
+    return format(std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
 }
 
 /// A text in JSON's quotes, of what can be printed.
@@ -147,8 +157,5 @@ inline std::string json_quoted(std::string_view text) {
 
 /// A number with nine digits; null for what is not finite.
 inline std::string json_number(double value) {
-    if (!std::isfinite(value)) return "null";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    return std::isfinite(value) ? format("%.9g", value) : "null";
 }

@@ -1,22 +1,14 @@
 #include "common/recording/recorder.h"
 
-#include <cstdio>
-
+#include "common/base/text.h"
 #include "common/scene/intersect.h"
 
 namespace {
 
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-    char text[512];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
+std::string to_text(Vec3 v) {
+    return format("(%.6g, %.6g, %.6g)", double{v.x}, double{v.y}, double{v.z});
 }
-std::string triple(float a, float b, float c) {
-    return format("(%.6g, %.6g, %.6g)", double{a}, double{b}, double{c});
-}
-std::string to_text(Vec3 v) { return triple(v.x, v.y, v.z); }
-std::string to_text(Rgb c) { return triple(c.r, c.g, c.b); }
+std::string to_text(Rgb c) { return to_text(Vec3{c.r, c.g, c.b}); }
 
 constexpr const char* material_names[] = {"diffuse", "conductor", "dielectric"};
 

@@ -17,23 +17,12 @@ constexpr const char *path = "fill='#c03' stroke='#c03' stroke-width='2'",
                      *open = "stroke='#080' stroke-width='1.5'",
                      *blocked = "stroke='#555' stroke-width='1.5' stroke-dasharray='5 4'";
 
-/// A drawing in the SVG format, element by element.
-struct Svg {
-    std::string text = {};
-
-    template <typename... Args>
-    void add(const char* pattern, Args... args) {
-        char element[400];
-        std::snprintf(element, sizeof element, pattern, args...);
-        text += element;
-    }
-    /// Words with a contrasting outline; `at`: left end of their base line.
-    void words(Vec2 at, const std::string& words) {
-        add("<text x='%.1f' y='%.1f' font-family='sans-serif' font-size='13' stroke='white' "
-            "stroke-width='3' paint-order='stroke'>%s</text>\n",
-            double{at.x}, double{at.y}, words.c_str());
-    }
-};
+/// Words with a contrasting outline, in the SVG format; `at`: left end of their base line.
+std::string words(Vec2 at, const std::string& words) {
+    return format("<text x='%.1f' y='%.1f' font-family='sans-serif' font-size='13' ", double{at.x},
+                  double{at.y}) +
+           "stroke='white' stroke-width='3' paint-order='stroke'>" + words + "</text>\n";
+}
 
 /// A panel of the drawing: a camera, of which a pixel is one of the panel.
 struct Panel {
@@ -51,25 +40,12 @@ struct Panel {
     }
 };
 
-Panel camera_panel(const Scene& scene) {
-    float scale = side / static_cast<float>(std::max(scene.width, scene.height));
-    int width = std::max(2, static_cast<int>(scale * static_cast<float>(scene.width))),
-        height = std::max(2, static_cast<int>(scale * static_cast<float>(scene.height)));
-    return {true, width, height, camera_view(scene.camera, width, height)};
-}
-
-/// The axis of the world that points up, for a camera that looks about horizontally. In doubt y, as
-/// in most scenes.
-Vec3 upward(const Camera& camera) {
-    Vec3 a = abs(camera.up), up;
-    int axis = 2 * a.y >= a.x && 2 * a.y >= a.z ? 1 : a.x >= a.z ? 0 : 2;
-    up[axis] = camera.up[axis] < 0 ? -1.0f : 1.0f;
-    return up;
-}
-
-/// The view of a box from high above; the camera's right is on the right.
+/// The view of a box from high above; the camera's right is on the right. Up is an axis of the
+/// world, for a camera that looks about horizontally; in doubt y, as in most scenes.
 Panel panel_from_above(const Scene& scene, Box box) {
-    Vec3 up = upward(scene.camera), forward = scene.camera.forward;
+    Vec3 a = abs(scene.camera.up), up, forward = scene.camera.forward;
+    int axis = 2 * a.y >= a.x && 2 * a.y >= a.z ? 1 : a.x >= a.z ? 0 : 2;
+    up[axis] = scene.camera.up[axis] < 0 ? -1.0f : 1.0f;
     Vec3 away = normalize(forward - dot(forward, up) * up), right = cross(up, away);
     if (dot(right, scene.camera.right) < 0) right = -right;
     float size = 1.2f * length(box.high - box.low);
@@ -79,15 +55,6 @@ Panel panel_from_above(const Scene& scene, Box box) {
             static_cast<int>(side),
             static_cast<int>(side),
             {0.5f * (box.low + box.high) - down, down - side / 2 * (dx + dy), dx, dy}};
-}
-
-/// The ray that meets what a point of a panel shows; from above it starts at the eye's height.
-Ray ray_of(const Scene& scene, const Panel& panel, Vec2 p) {
-    Ray ray = camera_ray(panel.view, p);
-    if (panel.is_camera) return ray;
-    Vec3 up = upward(scene.camera);
-    float t = dot(scene.camera.o - ray.o, up) / dot(ray.d, up);
-    return {ray.o + t * ray.d, ray.d};
 }
 
 std::string base64(std::string bytes) {
@@ -105,12 +72,16 @@ std::string base64(std::string bytes) {
 }
 
 /// The scene in flat colours, lit along the rays; lamps are yellow.
-void draw_scene(Svg& svg, const Panel& panel, const Scene& scene) {
+void draw_scene(std::string& svg, const Panel& panel, const Scene& scene) {
     Image image(panel.width / 2, panel.height / 2);  // a pixel is 2 x 2 of the panel
     for (int i = 0; i < image.width * image.height; i++) {
         int x = i % image.width, y = i / image.width;
         Vec2 middle = {2 * static_cast<float>(x) + 1, 2 * static_cast<float>(y) + 1};
-        Ray ray = ray_of(scene, panel, middle);
+        Ray ray = camera_ray(panel.view, middle);
+        if (!panel.is_camera) {  // start at the eye's height
+            Vec3 up = cross(panel.view.dx, panel.view.dy);
+            ray.o = ray.o + dot(scene.camera.o - ray.o, up) / dot(ray.d, up) * ray.d;
+        }
         std::optional<Hit> hit = intersect(scene, ray);
         Rgb& pixel = image.at(x, y);
         pixel = {0.8f, 0.85f, 0.9f};  // the sky
@@ -120,46 +91,47 @@ void draw_scene(Svg& svg, const Panel& panel, const Scene& scene) {
         Rgb colour = diffuse ? hit->material->reflectance : Rgb{0.5f, 0.6f, 0.65f};
         pixel = shines ? Rgb{1, 0.75f, 0.05f} : (0.25f - 0.75f * dot(ray.d, hit->n)) * colour;
     }
-    svg.add("<image width='%d' height='%d' opacity='0.6' ", panel.width, panel.height);
-    svg.text += "href='data:image/png;base64," + base64(encode_png(image, "")) + "'/>\n";
+    svg += format("<image width='%d' height='%d' opacity='0.6' ", panel.width, panel.height);
+    svg += "href='data:image/png;base64," + base64(encode_png(image, "")) + "'/>\n";
 }
 
 /// Draws the part of a segment in front of the camera.
-void draw_line(Svg& svg, const Panel& panel, Vec3 a, Vec3 b, const char* style) {
+void draw_line(std::string& svg, const Panel& panel, Vec3 a, Vec3 b, const char* style) {
     float za = panel.depth(a), zb = panel.depth(b), near = 0.01f * std::max(za, zb);
     if (!(near > 0)) return;
     if (za < near) a = a + (near - za) / (zb - za) * (b - a);
     if (zb < near) b = b + (near - zb) / (za - zb) * (a - b);
     Vec2 from = panel.project(a), to = panel.project(b);
-    svg.add("<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' %s/>\n", double{from.x}, double{from.y},
-            double{to.x}, double{to.y}, style);
+    svg += format("<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f' %s/>\n", double{from.x},
+                  double{from.y}, double{to.x}, double{to.y}, style);
 }
 
-void draw_point(Svg& svg, const Panel& panel, Vec3 p, const std::string& name) {
+void draw_point(std::string& svg, const Panel& panel, Vec3 p, const std::string& name) {
     if (!(panel.depth(p) > 0)) return;
     Vec2 at = panel.project(p);
-    svg.add("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, path);
-    svg.words({at.x + 6, at.y - 6}, name);
+    svg += format("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, path);
+    svg += words({at.x + 6, at.y - 6}, name);
 }
 
 /// An SVG with two panels: the scene seen by the camera, and from above, each with the path and its
-/// shadow rays; of a very long path only the beginning. eye: start of the path from the eye; rays:
-/// all rays that the path traced.
-std::string draw_path(const Scene& scene, Vec3 eye, std::vector<PathVertex> vertices,
-                      std::vector<TracedRay> rays) {
-    constexpr size_t most = 1000;
-    vertices.resize(std::min(vertices.size(), most));
-    rays.resize(std::min(rays.size(), most));
+/// shadow rays. eye: start of the path from the eye; rays: all rays that the path traced.
+std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& vertices,
+                      const std::vector<TracedRay>& rays) {
+    float scale = side / static_cast<float>(std::max(scene.width, scene.height));
+    int width = std::max(2, static_cast<int>(scale * static_cast<float>(scene.width))),
+        height = std::max(2, static_cast<int>(scale * static_cast<float>(scene.height)));
+    Panel by_camera = {true, width, height, camera_view(scene.camera, width, height)};
     Box box = {eye, eye};
     for (const PathVertex& x : vertices) box.add(x.p);
-    Svg svg;
-    svg.add("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n",
-            double{2 * side + 3 * margin}, double{side + margin + 56});
-    svg.text += "<rect width='100%' height='100%' fill='white'/>\n";
+    std::string svg;
+    svg += format("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n",
+                  double{2 * side + 3 * margin}, double{side + margin + 56});
+    svg += "<rect width='100%' height='100%' fill='white'/>\n";
     float left = margin;
-    for (const Panel& panel : {camera_panel(scene), panel_from_above(scene, box)}) {
-        svg.add("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='0 0 %d %d'>\n",
-                double{left}, double{margin}, panel.width, panel.height, panel.width, panel.height);
+    for (const Panel& panel : {by_camera, panel_from_above(scene, box)}) {
+        svg += format("<svg x='%.0f' y='%.0f' width='%d' height='%d' viewBox='0 0 %d %d'>\n",
+                      double{left}, double{margin}, panel.width, panel.height, panel.width,
+                      panel.height);
         draw_scene(svg, panel, scene);
         for (const auto& [ray, shadow, met, t] : rays) {
             if (met && !shadow) continue;  // leads to the next vertex
@@ -174,14 +146,14 @@ std::string draw_path(const Scene& scene, Vec3 eye, std::vector<PathVertex> vert
             if (from >= -1) draw_line(svg, panel, before, p, path);
             draw_point(svg, panel, p, std::to_string(i + 1));
         }
-        svg.text += "</svg>\n";
-        svg.words({left, margin + static_cast<float>(panel.height) + 18},
-                  panel.is_camera ? "as the camera sees it" : "from above");
+        svg += "</svg>\n";
+        svg += words({left, margin + static_cast<float>(panel.height) + 18},
+                     panel.is_camera ? "as the camera sees it" : "from above");
         left += side + margin;
     }
-    svg.words({margin, margin + side + 42},
-              "red: the path; green: a shadow ray that meets nothing; dashed: a blocked one");
-    return svg.text + "</svg>\n";
+    svg += words({margin, margin + side + 42},
+                 "red: the path; green: a shadow ray that meets nothing; dashed: a blocked one");
+    return svg + "</svg>\n";
 }
 
 /// All contributions of the sample, with their sum for each pixel: first its own pixel, then those
@@ -223,9 +195,8 @@ int explain(const Scene& scene, const RenderOptions& options, const Method& meth
     bool is_taken = options.time > 0 || halves || s < scene.spp;
     if (x >= scene.width || y >= scene.height || !is_taken)
         fail_value("explain", options.explain->text(),
-                   "a pixel of " + std::to_string(scene.width) + "x" +
-                       std::to_string(scene.height) + " and one of " + std::to_string(scene.spp) +
-                       " samples, which count from 0");
+                   format("a pixel of %dx%d and one of %d samples, which count from 0", scene.width,
+                          scene.height, scene.spp));
     size_t pixel = static_cast<size_t>(y * scene.width + x);
 
     // Trace the sample just as render_film does, and record all of it.

@@ -1,7 +1,5 @@
 #include "common/render/options.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,17 +12,11 @@
 #include "common/base/system.h"
 #include "common/recording/class_filter.h"
 
-/// The first place of the word, or the number of words.
-static size_t index_of(const std::vector<std::string>& words, const std::string& word) {
-    return static_cast<size_t>(std::find(words.begin(), words.end(), word) - words.begin());
-}
-
 [[noreturn]] static void print_usage(const char* program, const std::string& positional,
                                      const std::string& about, const std::vector<Option>& options) {
     std::printf("usage: %s%s%s [OPTION]...\n%s\n\n", program, positional.empty() ? "" : " ",
                 positional.c_str(), about.c_str());
     for (const Option& option : options) {
-        if (option.help.empty()) continue;
         std::string left = "--" + option.name, right = option.help;
         if (!option.argument.empty()) left += " " + option.argument;
         bool tells_default = option.value.empty() || right.find("default") != std::string::npos;
@@ -56,9 +48,9 @@ std::vector<Option> parse_options(int argc, char** argv, const std::string& posi
         }
         size_t equals = word.find('=');
         std::string name = word.substr(0, equals), value;
-        size_t index = index_of(names, name);
-        if (index == names.size()) throw UsageError("error: " + unknown("option", name, names));
-        Option& option = options[index];
+        auto known = std::find(names.begin(), names.end(), name);
+        if (known == names.end()) throw UsageError("error: " + unknown("option", name, names));
+        Option& option = options[static_cast<size_t>(known - names.begin())];
 
         // Take the value from after the = or from the next word.
         bool takes_value = !option.argument.empty(), has_value = equals != std::string::npos;
@@ -78,23 +70,6 @@ void fail_value(const std::string& option, const std::string& text, const std::s
     throw UsageError("error: --" + option + " takes " + wanted + ", not '" + text + "'");
 }
 
-int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
-                      int64_t high) {
-    double value = to_number(text).value_or(NAN);
-    if (value == std::floor(value) && value >= static_cast<double>(low) &&
-        value <= static_cast<double>(high))
-        return static_cast<int64_t>(value);
-    fail_value(option, text,
-               "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
-}
-
-size_t parse_choice(const std::string& option, const std::string& text,
-                    const std::vector<std::string>& known) {
-    size_t index = index_of(known, text);
-    if (index == known.size()) fail_value(option, text, listed(known, " or "));
-    return index;
-}
-
 std::vector<int> split_numbers(const std::string& text, char separator) {
     std::vector<int> numbers;
     std::istringstream parts(text + separator);
@@ -103,19 +78,6 @@ std::vector<int> split_numbers(const std::string& text, char separator) {
         if (numbers.back() < 0) return {};
     }
     return numbers;
-}
-
-double parse_positive(const std::string& option, const std::string& text) {
-    double value = to_number(text).value_or(0);
-    if (value > 0 && std::isfinite(value)) return value;
-    fail_value(option, text, "a number greater than 0");
-}
-
-std::string listed(const std::vector<std::string>& words, const std::string& last) {
-    std::string text;
-    for (size_t i = 0; i < words.size(); i++)
-        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : last) + words[i];
-    return text;
 }
 
 std::string command_line(int argc, char** argv) {
@@ -170,8 +132,6 @@ static std::string project_file(const std::string& program, const std::string& n
 /// Throws UsageError for values that are wrong, and for options that cannot be combined.
 static void check(const RenderOptions& o) {
     ClassFilter{o.paths};
-    // At shorter intervals nothing would be rendered between two writings.
-    if (o.film_every < 0.01) throw UsageError("error: --film-every takes at least 0.01 seconds");
     if (o.film.empty() && o.parts > 1)
         throw UsageError("error: --part needs --film, or its samples could not be merged");
     if (!o.film.empty() && !has_ending(o.film, film_ending))
@@ -180,10 +140,9 @@ static void check(const RenderOptions& o) {
         throw UsageError("error: --split and --film: a film keeps the whole alone, no classes");
 }
 
-std::string parse_picture(const std::string& option, const std::string& text, bool or_table) {
-    if (is_image_path(text) || (or_table && has_ending(text, ".tsv"))) return text;
-    fail_value(option, text,
-               or_table ? "a .ppm, .pfm, .png or .tsv file" : "a .ppm, .pfm or .png file");
+std::string parse_picture(const std::string& option, const std::string& text) {
+    if (is_image_path(text)) return text;
+    fail_value(option, text, "a .ppm, .pfm or .png file");
 }
 
 RenderOptions parse_render_options(int argc, char** argv, const std::string& name,
@@ -279,20 +238,19 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
 
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n) {
     TableOptions o;
-    o.name = name;
     o.n = n;
     std::vector<Option> options = {
         whole_option("n", "N", "samples", 1, int64_t{1} << 40, o.n),
         whole_option("seed", "S", "seed of the random numbers", 0, 0xffffffff, o.seed),
-        {"out", "FILE", ".ppm, .pfm or .png for the picture, .tsv for the table; may be repeated",
-         [&](const std::string& text) { o.out.push_back(parse_picture("out", text, true)); }},
+        {"out", "FILE", ".ppm, .pfm or .png; may be repeated (default out/" + name + ".ppm)",
+         [&](const std::string& text) { o.out.push_back(parse_picture("out", text)); }},
         flag_option("quiet", "print errors only", o.quiet),
     };
     parse_options(argc, argv, "", "Chapter " + name + ": prints a table and draws a picture.",
                   options, [](const std::string& word) {
                       throw UsageError("error: '" + word + "' is not an option; --help lists them");
                   });
-    if (o.out.empty()) o.out = {"out/" + name + ".ppm", "out/" + name + ".tsv"};
+    if (o.out.empty()) o.out = {"out/" + name + ".ppm"};
     check_outputs(o.out);
     o.comment = comment_of(
         {{"chapter", name}, {"n", std::to_string(o.n)}, {"seed", std::to_string(o.seed)}});

@@ -1,6 +1,8 @@
 // Command lines and the error handling that all programs share; the options of the chapters, and
 // the tables that they print.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <functional>
@@ -8,14 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "common/base/text.h"
 #include "common/path/sampler.h"
 #include "common/picture/film.h"
 #include "common/picture/image.h"
 
 /// One option, `--name ARGUMENT` (or `--name` if `argument` is empty). `set` receives the
-/// argument's text, and throws UsageError if it is invalid. --help omits options without `help`.
-/// value: the default. --help adds it to a help line that names none; and films record it for the
-/// options that a chapter adds.
+/// argument's text, and throws UsageError if it is invalid. value: the default. --help adds it to a
+/// help line that names none; and films record it for the options that a chapter adds.
 struct Option {
     std::string name, argument, help;
     std::function<void(const std::string&)> set;
@@ -33,23 +35,18 @@ std::vector<Option> parse_options(int argc, char** argv, const std::string& posi
 [[noreturn]] void fail_value(const std::string& option, const std::string& text,
                              const std::string& wanted);
 
-/// A whole number within [low, high], or UsageError that names the option.
-int64_t parse_integer(const std::string& option, const std::string& text, int64_t low,
-                      int64_t high);
-/// The index of `text` in the words `known`, or UsageError that lists them.
-size_t parse_choice(const std::string& option, const std::string& text,
-                    const std::vector<std::string>& known);
-/// A number greater than 0, or UsageError.
-double parse_positive(const std::string& option, const std::string& text);
 /// The whole numbers in a text such as "256x256"; none if it has another form.
 std::vector<int> split_numbers(const std::string& text, char separator);
 
 /// An option that sets a whole number within [low, high]. Its default is what it is now.
 template <class Number>
 Option whole_option(const std::string& name, const std::string& argument, const std::string& help,
-                    int64_t low, int64_t high, Number& number) {
+                    double low, double high, Number& number) {
     auto set = [=, &number](const std::string& text) {
-        number = static_cast<Number>(parse_integer(name, text, low, high));
+        double value = to_number(text).value_or(NAN);
+        if (!(value == std::floor(value) && value >= low && value <= high))
+            fail_value(name, text, format("a whole number from %.0f to %.0f", low, high));
+        number = static_cast<Number>(value);
     };
     return {name, argument, help, set, std::to_string(number)};
 }
@@ -58,7 +55,9 @@ template <class Choice>
 Option choice_option(const std::string& name, const std::string& argument, const std::string& help,
                      const std::vector<std::string>& words, Choice& choice) {
     auto set = [=, &choice](const std::string& text) {
-        choice = static_cast<Choice>(parse_choice(name, text, words));
+        auto found = std::find(words.begin(), words.end(), text);
+        if (found == words.end()) fail_value(name, text, listed(words, " or "));
+        choice = static_cast<Choice>(found - words.begin());
     };
     return {name, argument, help, set, words[static_cast<size_t>(choice)]};
 }
@@ -66,7 +65,10 @@ Option choice_option(const std::string& name, const std::string& argument, const
 inline Option positive_option(const std::string& name, const std::string& argument,
                               const std::string& help, double& number, bool or_zero = false) {
     auto set = [=, &number](const std::string& text) {
-        number = or_zero && text == "0" ? 0 : parse_positive(name, text);
+        double value = to_number(text).value_or(NAN);
+        bool fits = (value > 0 && std::isfinite(value)) || (or_zero && value == 0);
+        if (!fits) fail_value(name, text, "a number greater than 0");
+        number = value;
     };
     return {name, argument, help, set, or_zero ? "0" : ""};
 }
@@ -78,9 +80,6 @@ inline Option text_option(const std::string& name, const std::string& argument,
 inline Option flag_option(const std::string& name, const std::string& help, bool& flag) {
     return {name, "", help, [&](const std::string&) { flag = true; }};
 }
-
-/// "a, b and c", where `last` is " and ".
-std::string listed(const std::vector<std::string>& words, const std::string& last);
 
 /// The command, quoted for the shell: words with special characters are in single quotes.
 std::string command_line(int argc, char** argv);
@@ -142,17 +141,15 @@ RenderOptions parse_render_options(int argc, char** argv, const std::string& nam
                                    std::vector<Option> extra = {},
                                    const std::vector<std::string>& takes = {});
 
-/// The file name of a picture (or of a table), or UsageError.
-std::string parse_picture(const std::string& option, const std::string& text,
-                          bool or_table = false);
+/// The file name of a picture, or UsageError.
+std::string parse_picture(const std::string& option, const std::string& text);
 
 /// The options of the chapters without a scene (01 to 04).
 struct TableOptions {
-    std::string name;
     std::string comment;  // for the picture; see picture/film.h
     uint64_t n = 0;
     uint32_t seed = 0;
-    std::vector<std::string> out;  // pictures, and .tsv for the table
+    std::vector<std::string> out;
     bool quiet = false;
 };
 
@@ -177,16 +174,10 @@ std::string tab_separated(const Table& table);
 /// samples halve the error. NaN for fewer than two points.
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Prints the table and the notes below it (nothing with --quiet), and writes every --out FILE:
-/// .tsv the table, all others the picture. Throws InputError.
+/// Prints the table and the notes below it (nothing with --quiet), and writes the picture to every
+/// --out FILE. Throws InputError.
 void write_results(const TableOptions& options, const Table& table, const std::string& notes,
                    const Image& picture);
 
-/// Seconds of processor time since construction: other programs on the machine do not count.
-class Stopwatch {
-public:
-    double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
-
-private:
-    std::clock_t start_ = std::clock();
-};
+/// Seconds of processor time so far: other programs on the machine do not count.
+inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

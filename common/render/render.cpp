@@ -31,7 +31,8 @@ struct TileRenderer {
     const Limit& limit;
     const SampleRange wanted;
     Rendering& result;
-    double interval = options.film.empty() ? HUGE_VAL : options.film_every;  // s
+    // s; if it were shorter, nothing would be rendered in between
+    double interval = options.film.empty() ? HUGE_VAL : std::max(options.film_every, 0.01);
     double next_save = limit.elapsed() + interval;
 
     const bool chooses = !options.paths.empty() || !options.strategy.empty();
@@ -259,13 +260,11 @@ struct TileRenderer {
 /// The options that decide the samples, except seeds and sample numbers.
 Notes film_options(const Scene& scene, const RenderOptions& o) {
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
-    char checksum[17];
-    std::snprintf(checksum, sizeof checksum, "%016" PRIx64, scene.origin->checksum);
     bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
     Notes options = {{"chapter", o.name},
                      {"code", code_hash(o.name)},
                      {"scene", printable(file_name(file_path(scene.origin->file).filename()))},
-                     {"checksum", checksum},
+                     {"checksum", format("%016" PRIx64, scene.origin->checksum)},
                      {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
                      {"max-depth", std::to_string(scene.max_depth)},
                      {"sampler", samplers[static_cast<size_t>(o.sampler)]},
@@ -285,10 +284,9 @@ Notes film_options(const Scene& scene, const RenderOptions& o) {
 /// The samples of a pixel that the options ask for: all, or those of a part. Their number is not
 /// limited with --time but without --spp. Throws UsageError if there are more parts than samples.
 SampleRange wanted_samples(const Scene& scene, const RenderOptions& o) {
-    if (o.parts > scene.spp) {
-        throw UsageError("error: --part: there are " + std::to_string(scene.spp) +
-                         " samples, too few for " + std::to_string(o.parts) + " parts");
-    }
+    if (o.parts > scene.spp)
+        throw UsageError(format("error: --part: there are %d samples, too few for %d parts",
+                                scene.spp, o.parts));
     bool is_endless = o.time > 0 && o.spp == 0 && o.parts == 1;  // until the time is up
     if (is_endless) return {o.seed, 0, PixelSum::most};
     int spp = o.time > 0 && o.spp > 0 ? o.spp : scene.spp;
@@ -321,7 +319,7 @@ void mark_lamp_edges(const Scene& scene, int threads, Film& film) {
 
 void continue_film(const Scene& scene, const RenderOptions& options, Rendering& rendering) {
     if (options.film.empty()) return;
-    rendering.film_lock = std::make_shared<FileLock>(options.film);
+    rendering.film_lock = lock_of(options.film);
     std::error_code none;
     bool is_there = std::filesystem::file_size(file_path(options.film), none) > 0 && !none;
     if (!is_there) return save_film(scene, options, rendering);
@@ -406,7 +404,7 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Me
     }
     for (auto& [path_class, film] : result.classes) film.count_as(result.film);
     result.stats.seconds = limit.elapsed();
-    result.stats.interrupted = limit.interrupted();
+    result.stats.interrupted = stop_requested;
     return result;
 }
 

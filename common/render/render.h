@@ -1,9 +1,9 @@
-// What the program of a chapter does: renders, or explains one path, and writes the results.
+// What the program of a chapter does: loads a scene, renders it or explains one path, and writes
+// the results.
 #pragma once
 #include <atomic>
 #include <chrono>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,7 +11,33 @@
 #include "common/base/system.h"
 #include "common/path/method.h"
 #include "common/picture/film.h"
-#include "common/render/loading.h"
+#include "common/render/options.h"
+
+/// Those features of scenes that not all chapters render.
+struct Features {
+    bool lens = false, shutter = false, sky_image = false, dispersion = false, rough = false;
+};
+constexpr Features features_of(int chapter) {
+    auto within = [&](int first, int last) { return first <= chapter && chapter <= last; };
+    return {.lens = within(16, 19) || within(21, 25),
+            .shutter = within(16, 22),
+            .sky_image = within(17, 25),
+            .dispersion = within(18, 19),
+            .rough = chapter == 6 || within(13, 26)};
+}
+
+/// Reads and prepares the scene that the options name. Size, samples and depth in the options
+/// replace those of the scene. Throws as fit_features() does.
+Scene load(const RenderOptions& options, Features features);
+
+/// Throws InputError if the scene has a lens, moving shapes, a sky image, dispersive glass or rough
+/// conductors, and the chapter's `features` do not support it. stand_ins: what has a stand-in is
+/// replaced by it, and told in the scene's origin.
+void fit_features(Scene& scene, Features features, bool stand_ins = false);
+
+/// Throws InputError if the scene has a point or distant light: a path that finds light only by
+/// random hits never finds it.
+void refuse_delta_lights(const Scene& scene);
 
 /// When work has to end before all of it is done: after some seconds, or on a signal.
 ///
@@ -27,14 +53,8 @@ public:
     ~Limit() {
         if (--alive == 0) release_stop_signals();
     }
-    Limit(const Limit&) = delete;
-    Limit& operator=(const Limit&) = delete;
 
-    bool reached() const { return interrupted() || (seconds_ > 0 && elapsed() >= seconds_); }
-    bool interrupted() const { return stop_requested; }
-    /// Whether it was interrupted; resets it, so that the signal ends one part of the work but not
-    /// the next.
-    bool take_interruption() { return stop_requested.exchange(false); }
+    bool reached() const { return stop_requested || (seconds_ > 0 && elapsed() >= seconds_); }
     /// Whether overdue() has found the limit reached; at most a few rays late.
     bool seen() const { return reached_at_ != 0; }
     /// Whether it was reached some time ago. Until then, samples that have started are finished:
@@ -83,7 +103,7 @@ struct Rendering {
                                           // for all classes longer than 8 letters
     uint32_t begun = 0;                   // samples a pixel that passes have begun to take
     std::vector<std::string> warnings = {};  // of the chapter's own
-    std::shared_ptr<FileLock> film_lock = {};
+    FileLock film_lock = {};
 };
 
 /// Renders in passes over the whole picture, until scene.spp samples per pixel, options.time or a

@@ -28,7 +28,7 @@ std::string stats_json(const Scene& scene, const RenderOptions& options, const R
     };
     auto add_texts = [&](const std::string& name, std::vector<std::string> texts) {
         for (std::string& text : texts) text = json_quoted(text);
-        add(name, '[' + listed(texts, ", ") + ']');
+        add(name, '[' + listed(texts) + ']');
     };
     add("scene", json_quoted(scene.origin->file));
     add("spp", json_number(r.film.spp()));
@@ -161,10 +161,9 @@ void check_outputs(const Scene& scene, const RenderOptions& options) {
 std::string mean_and_error(const Film& film) {
     double mean = film.mean(), error = film.standard_error();
     if (!std::isfinite(mean)) return "mean unknown: not all samples are finite";
-    if (std::isnan(error))
-        return "mean " + std::to_string(mean) + ", standard error unknown" +
-               (film.spp() > 1 ? "" : " (1 sample)");
-    return "mean " + std::to_string(mean) + " +- " + std::to_string(error);
+    const char* why = film.spp() > 1 ? "" : " (1 sample)";
+    if (std::isnan(error)) return format("mean %f, standard error unknown%s", mean, why);
+    return format("mean %f +- %f", mean, error);
 }
 
 int write_results(const Scene& scene, const RenderOptions& options, const Rendering& r) {
@@ -190,9 +189,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
 std::string digits(double x, int significant) {
     if (std::isnan(x)) return "unknown";
     if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*g", significant, x);
-    return text;
+    return format("%.*g", significant, x);
 }
 
 /// A line for the names of the columns and for each row.
@@ -233,10 +230,6 @@ void write_results(const TableOptions& options, const Table& table, const std::s
     if (!options.quiet) std::printf("%s\n%s", aligned(table).c_str(), notes.c_str());
     std::vector<Output> outputs;
     for (const std::string& path : options.out)
-        outputs.push_back({path, [&] {
-                               if (!has_ending(path, ".tsv"))
-                                   return write_image(path, picture, options.comment);
-                               write_file_atomically(path, tab_separated(table));
-                           }});
+        outputs.push_back({path, [&] { write_image(path, picture, options.comment); }});
     write_outputs(outputs);
 }

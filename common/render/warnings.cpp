@@ -5,16 +5,10 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/light/light_table.h"
-#include "common/material/basic_bsdf.h"
-#include "common/material/ggx.h"
-#include "common/material/hit.h"
-#include "common/path/sampler.h"
+#include "common/path/image_light.h"
 #include "common/picture/drawing.h"
 #include "common/render/render.h"
-#include "common/scene/intersect.h"
 #include "common/scene/prepare.h"
-#include "common/scene/sky_image.h"
 
 namespace {
 
@@ -207,15 +201,12 @@ bool lamps_are_near(const Scene& scene, const InView& seen) {
 /// The probabilities with which chapter 20 starts paths: at the lights, as in chapter 11; then at
 /// the pixels of the sky's image, by their light.
 std::vector<double> starts_of(const Scene& scene) {
-    std::vector<double> pmf = light_pmf(scene, 0.25), sky;
-    for (size_t i = 0; scene.sky_image && i < scene.sky_image->pixels.size(); i++) {
-        float angle = solid_angle_per_area(*scene.sky_image, scene.sky_image->middle_of(i));
-        sky.push_back(double{angle * average(scene.sky_image->pixels[i])});
-    }
-    double all = std::accumulate(sky.begin(), sky.end(), 0.0), share = pmf.empty() ? 1 : 0.5;
-    if (all == 0) return pmf;
+    std::vector<double> pmf = light_pmf(scene, 0.25), cdf = {0};
+    if (scene.sky_image) cdf = sky_light::image_cdf(*scene.sky_image, false);
+    if (cdf.back() == 0) return pmf;
+    double share = pmf.empty() ? 1 : 0.5;
     for (double& p : pmf) p *= 1 - share;
-    for (double p : sky) pmf.push_back(share * p / all);
+    for (size_t i = 1; i < cdf.size(); i++) pmf.push_back(share * (cdf[i] - cdf[i - 1]));
     return pmf;
 }
 
@@ -327,9 +318,7 @@ Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film)
     Lines lines;
 
     lines.warn(o.search == random_hits && has_rare_light(scene, samples),
-               "this chapter finds lights only by random hits, and one is so small that few paths "
-               "hit it: " +
-                   larger);
+               "a small light is " + at_random);
 
     if (o.search == from_lights) {
         InView seen = in_view(scene);
@@ -341,9 +330,7 @@ Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film)
                        "light leave it towards the camera, so " +
                        larger);
         lines.warn(all && light_by_few_paths(scene, seen, samples) > 2 * error,
-                   "so few paths from a light reach a part of what the camera sees that its light "
-                   "may be missing: " +
-                       larger);
+                   "few paths from a light reach a part of the picture: " + larger);
         lines.warn(share > 0, percent(share) +
                                   " of the picture shows a mirror or glass: this part is black, "
                                   "because no vertex on it can be connected to the camera");
@@ -364,8 +351,7 @@ Lines missed_light(const Scene& scene, const RenderOptions& o, const Film& film)
     if (o.search == direct && depth > 0) {
         InView seen = in_view(scene);
         lines.warn(scene.sky_light >= 0 && receivers,
-                   "light that surfaces receive from the sky is left out: the sky is seen only "
-                   "directly and in mirrors");
+                   "light that surfaces receive from the sky is left out");
         lines.warn(lamps_are_near(scene, seen),
                    "a lamp near a surface lights it as if all came from the lamp's middle: the "
                    "reported error does not include this");
@@ -440,7 +426,8 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
     double half = static_cast<double>(counts.photons) / 2;
     double blur = std::abs(static_cast<double>(counts.inner_photons) / half - 1);
     bool is_told_by_means = film.has_audits() || film.has_halves();
-    const std::string half_or_twice = ": the true one may be half or twice as large";
+    const std::string half_or_twice = ": the true one may be half or twice as large",
+                      is_larger = ": the true error is larger than the reported one";
 
     lines.warn(empty > 0, "rendering ended before " + percent(empty) +
                               " of the pixels had a sample: they are black");
@@ -448,13 +435,10 @@ std::vector<std::string> warnings_of(const Film& film, const SampleCounts& count
     lines.warn(
         sum > 0 && counts.largest > too_much * sum,
         "one sample contains " + percent(counts.largest / sum) + " of the whole picture" + place);
-    lines.warn(
-        has_noise && effective > 0 && effective < few_samples,
-        "as few as " + std::to_string(std::lround(effective)) +
-            " samples determine the picture: the true error is larger than the reported one");
+    lines.warn(has_noise && effective > 0 && effective < few_samples,
+               format("as few as %.0f samples determine the picture", effective) + is_larger);
     lines.warn(has_noise && one_in_many && effective >= few_samples,
-               "a few bright samples determine the error: the true error is larger than the "
-               "reported one");
+               "a few bright samples determine the error" + is_larger);
     lines.warn(film.has_batches() && film.spp() > 1 && film.spp() < few_audits,
                "the error is estimated from few passes" + half_or_twice);
     lines.warn(half > 0 && !(blur * mean < much_blur * error),

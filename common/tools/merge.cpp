@@ -14,7 +14,7 @@ static int merge(const std::string& out, const std::vector<std::string>& films) 
     if (is_image_path(out)) {
         write_image(out, film.image(), comment_of(notes_of(label, film.spp())));
     } else {
-        FileLock lock(out);
+        FileLock lock = lock_of(out);
         write_film(out, label, film);
     }
     std::printf("%zu films  %dx%d  %s spp\n%s\n", films.size(), film.width, film.height,

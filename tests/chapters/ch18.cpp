@@ -4,7 +4,7 @@
 #include "chapters/18_dispersion/estimator.h"
 #include "common/base/error.h"
 #include "common/material/spectrum.h"
-#include "common/render/loading.h"
+#include "common/render/render.h"
 #include "tests/support/estimators.h"
 
 namespace {

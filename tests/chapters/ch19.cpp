@@ -6,7 +6,7 @@
 #include "chapters/18_dispersion/estimator.h"
 #include "chapters/19_adaptive/estimator.h"
 #include "common/picture/comparison.h"
-#include "common/render/loading.h"
+#include "common/render/render.h"
 #include "tests/support/folder.h"
 #include "tests/support/gates.h"
 #include "tests/support/process.h"

@@ -97,8 +97,8 @@ TEST_SUITE("files") {
         });
         CHECK(read_file(f) == "half of it");
         {
-            FileLock lock(f);
-            CHECK(error_of([&] { FileLock second(f); }) == why);
+            FileLock lock = lock_of(f);
+            CHECK(error_of([&] { lock_of(f); }) == why);
             write_file_atomically(f, "by the owner");
         }
         CHECK(folder.names() == std::set<std::string>{"f"});

@@ -4,7 +4,7 @@
 
 #include "common/picture/film.h"
 #include "common/picture/image.h"
-#include "common/render/loading.h"
+#include "common/render/render.h"
 #include "tests/support/process.h"
 
 namespace fs = std::filesystem;

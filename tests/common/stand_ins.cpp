@@ -168,7 +168,7 @@ TEST_SUITE("stand-ins") {
             "Camera 'perspective' WorldBegin\nShape 'sphere'\nLightSource "
             "'infinite' 'string filename' 'a.pfm' 'float scale' 3 LightSource "
             "'infinite' 'rgb L' [1 2 3]");
-        stand_in_for_features(sky, features_of(16));
+        fit_features(sky, features_of(16), true);
         prepare(sky, 1);
         CHECK(in_words(sky.sky) == "2.2 4.25 3.75");
         CHECK(sky.origin->stand_ins.size() == 1);

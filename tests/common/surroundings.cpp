@@ -1,7 +1,6 @@
 // What surrounds a render: its films, and the pixels at the edges of lamps.
 #include <doctest/doctest.h>
 
-#include "common/render/loading.h"
 #include "common/render/render.h"
 #include "common/scene/intersect.h"
 #include "tests/support/process.h"

@@ -1,7 +1,7 @@
 // Law: all methods bring the same light, class of path by class of path.
 #include <cstdio>
 
-#include "common/render/loading.h"
+#include "common/render/render.h"
 #include "common/scene/prepare.h"
 #include "common/scene/sky_image.h"
 #include "tests/known/scenes.h"

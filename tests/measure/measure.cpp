@@ -35,26 +35,19 @@ MeasureOptions parse_measure_options(int argc, char** argv, const std::string& p
                                      const std::string& about, const MeasureOptions& defaults,
                                      const std::vector<Option>& extra) {
     MeasureOptions o = defaults;
-    auto integer = [](const char* name, int& value, int low, int high) {
-        return [=, &value](const std::string& text) {
-            value = static_cast<int>(parse_integer(name, text, low, high));
-        };
-    };
     std::vector<Option> options = {
         {"methods", "A,B", "such as 09,15; 15+: chapter 15 and its variants; all: every chapter",
          [&](const std::string& text) { o.methods = split_list(text); }},
-        {"spp", "N", "samples per pixel (default " + std::to_string(o.spp) + ")",
-         integer("spp", o.spp, 1, 1 << 30)},
-        {"runs", "R", "renders with seeds of their own (default " + std::to_string(o.runs) + ")",
-         integer("runs", o.runs, 2, 100000)},
+        whole_option("spp", "N", "samples per pixel", 1, 1 << 30, o.spp),
+        whole_option("runs", "R", "renders with seeds of their own", 2, 100000, o.runs),
         {"size", "WxH", "pixels (default: as the scene says)",
          [&](const std::string& text) {
              std::vector<int> sides = split_numbers(text, 'x');
              if (sides.size() != 2) fail_value("size", text, "WIDTHxHEIGHT, such as 256x256");
              o.width = sides[0], o.height = sides[1];
          }},
-        {"seconds", "S", "time to spend (default " + digits(o.seconds) + ")",
-         [&](const std::string& text) { o.seconds = parse_positive("seconds", text); }},
+        positive_option("seconds", "S", "time to spend (default " + digits(o.seconds) + ")",
+                        o.seconds),
         {"out", "DIR", "where tables and charts go (default " + o.out + ")",
          [&](const std::string& text) { o.out = text; }},
     };
@@ -85,9 +78,9 @@ Rendering render_once(const NamedMethod& method, Scene& scene, const MeasureOpti
     o.quiet = true;
     if (classes) o.split = "in memory";
     scene.spp = spp;
-    Stopwatch watch;
+    double start = cpu_seconds();
     Rendering r = render(method, scene, o);
-    r.stats.seconds = watch.seconds() / options.threads;
+    r.stats.seconds = (cpu_seconds() - start) / options.threads;
     if (r.stats.interrupted) throw InputError("error: interrupted");
     return r;
 }

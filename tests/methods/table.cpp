@@ -31,7 +31,7 @@ std::vector<NamedMethod> methods_named(const std::vector<std::string>& names) {
                                           : m.name == name;
             if (wanted) found.push_back(m);
         }
-        if (found.size() == before) parse_choice("methods", name, known);
+        if (found.size() == before) fail_value("methods", name, listed(known, " or "));
     }
     return found;
 }
@@ -48,7 +48,8 @@ Rendering render(const NamedMethod& method, const Scene& scene, RenderOptions op
 }
 
 void refuse(const NamedMethod& method, const Scene& scene) {
-    refuse_features(scene, features_of(method.number()));
+    Scene copy = scene;
+    fit_features(copy, features_of(method.number()));
     if (method.random_hits()) refuse_delta_lights(scene);
     if (method.search != LightSearch::from_lights) return;
     // What mirrors and glass show the camera is missing.
