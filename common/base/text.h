@@ -135,6 +135,15 @@ inline std::string percent(double share) {
     return text;
 }
 
+/// x with `significant` digits; "infinite", or "unknown" if it is not a number.
+inline std::string digits(double x, int significant = 5) {
+    if (std::isnan(x)) return "unknown";
+    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*g", significant, x);
+    return text;
+}
+
 /// A text in JSON's quotes, of what can be printed.
 inline std::string json_quoted(std::string_view text) {
     std::string json = "\"";

@@ -36,8 +36,8 @@ std::vector<Use> uses_not_in(Features features, const Scene& scene) {
         add(!features.rough && is_rough(m), m.at,
             "rough conductors are not supported before chapter 13", nullptr);
     }
-    for (const Mover& mover : scene.movers)
-        add(!features.shutter, mover.at, "shapes move in chapters 16 to 22 only",
+    for (const auto& mover : scene.movers)
+        add(!features.shutter, mover->at, "shapes move in chapters 16 to 22 only",
             "a shape that moves, in a chapter where all rest");
     if (scene.sky_image)
         add(!features.sky_image, scene.sky_image->at_file,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/text.h"
 #include "common/path/sampler.h"
 #include "common/picture/film.h"
 #include "common/picture/image.h"
@@ -165,9 +166,6 @@ struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
 };
-
-/// x with `significant` digits; "infinite", or "unknown" if it is not a number.
-std::string digits(double x, int significant = 5);
 
 /// One line per row, the columns aligned to the right (the first to the left).
 std::string aligned(const Table& table);

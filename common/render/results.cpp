@@ -187,14 +187,6 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
     return r.stats.interrupted ? 3 : 0;
 }
 
-std::string digits(double x, int significant) {
-    if (std::isnan(x)) return "unknown";
-    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*g", significant, x);
-    return text;
-}
-
 /// A line for the names of the columns and for each row.
 static std::string lines_of(const Table& table, bool aligned) {
     std::vector<std::vector<std::string>> lines = table.rows;

@@ -147,12 +147,7 @@ float area_of(const Emitter& e) {
     return 0;
 }
 
-Scene::Scene() : origin(std::make_shared<Origin>()) {}
-Scene::Scene(const Scene&) = default;
-Scene::Scene(Scene&&) = default;
-Scene& Scene::operator=(const Scene&) = default;
-Scene& Scene::operator=(Scene&&) = default;
-Scene::~Scene() = default;
+std::shared_ptr<const Origin> no_origin() { return std::make_shared<Origin>(); }
 
 Position Scene::place(const Position* at) const { return at ? *at : Position{origin->file}; }
 
@@ -177,17 +172,15 @@ void prepare(Scene& scene, int threads, const Report& report) {
 
     if (report) report("preparing lights and surfaces", 0);
     scene.moves = !scene.movers.empty();
-    scene.has_normals = !scene.geometry.normals.empty();
     Box box = bounds_of(scene.geometry);
     uint32_t prims = scene.geometry.size();
-    for (Mover& mover : scene.movers) {
-        mover.first_prim = prims;
-        scene.has_normals = scene.has_normals || !mover.geometry.normals.empty();
-        prims += mover.geometry.size();
-        mover.geometry.facet_normals = facet_normals(mover.geometry);
-        mover.bvh = std::make_shared<Bvh>(build_bvh(mover.geometry, threads));
-        mover.box = box_over_time(mover);
-        box.add(mover.box);
+    for (const auto& mover : scene.movers) {
+        mover->first_prim = prims;
+        prims += mover->geometry.size();
+        mover->geometry.facet_normals = facet_normals(mover->geometry);
+        mover->bvh = std::make_shared<Bvh>(build_bvh(mover->geometry, threads));
+        mover->box = box_over_time(*mover);
+        box.add(mover->box);
     }
     bool empty = scene.geometry.size() == 0 && scene.movers.empty();
     // Without shapes a sphere around the camera, so that skies and suns have a power.

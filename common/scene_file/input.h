@@ -135,6 +135,7 @@ struct Input {
     }
     /// Keeps which files are read, and a checksum of them in the order in which they are read.
     void add_file(const std::string& path, const std::string& bytes) {
+        if (report) report("reading " + path, 0);
         origin.files.insert(path);
         uint64_t size = bytes.size();
         checksum.add({reinterpret_cast<const char*>(&size), sizeof size});

@@ -105,15 +105,12 @@ inline Camera read_camera(const Params& params, const Transform& world_from_came
     return camera;
 }
 
-/// Film, PixelFilter, Sampler and Integrator: how pbrt renders, of which little counts here. iso:
-/// the film's speed, which scales the picture.
-inline void read_setting(const std::string& directive, const Params& params, Scene& scene,
-                         float& iso) {
+/// Film, PixelFilter, Sampler and Integrator: how pbrt renders, of which little counts here.
+inline void read_setting(const std::string& directive, const Params& params, Scene& scene) {
     const std::string& type = params.type();
     if (directive == "Film") {
         scene.width = params.integer("xresolution");
         scene.height = params.integer("yresolution");
-        iso = params.number("iso");
         if (int64_t{scene.width} * scene.height > 1 << 28) {
             fail(params.at(), "more than 2^28 pixels");
         }

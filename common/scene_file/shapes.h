@@ -27,7 +27,7 @@ inline std::vector<uint32_t> read_indices(const Params& params, size_t vertices,
     std::vector<uint32_t> indices;
     for (double index : numbers) {
         if (index < 0 || index >= static_cast<double>(vertices)) {
-            fail(at, "index " + digits(index) + " is out of range: there are " +
+            fail(at, "index " + digits(index, 10) + " is out of range: there are " +
                          std::to_string(vertices) + " vertices");
         }
         indices.push_back(static_cast<uint32_t>(index));
@@ -193,7 +193,6 @@ inline void read_shape(const Params& params, const State& state, Scene& scene) {
         std::string path = input.find(name.at, name.strings[0]);
         TriangleMesh mesh;
         bool is_read = input.try_to_read(params.at(), "a mesh that cannot be read", [&] {
-            if (input.report) input.report("reading " + path, 0);
             mesh = parse_ply(path, input.read(path, name.at), input.limits);
         });
         if (is_read) add_mesh(params, mesh, state, each, scene);

@@ -32,9 +32,8 @@ constexpr ParamRow rows[] = {
 
     {"Film", films, "integer", "xresolution", 1280, 1, 1 << 16},
     {"Film", films, "integer", "yresolution", 720, 1, 1 << 16},
-    {"Film", films, "float", "iso", 100, 1e-30},
     {"Film", films, "float", "maxcomponentvalue"},
-    {"Film", films, "", "sensor whitebalance", 0, 0, 0, 0, "a sensor or white balance"},
+    {"Film", films, "", "iso sensor whitebalance", 0, 0, 0, 0, "the film's response"},
     {"Film", films, "", "cropwindow pixelbounds", 0, 0, 0, 0, "a part of the film"},
     {"Film", films, ignored, "diagonal filename savefp16"},
 
@@ -143,6 +142,7 @@ const std::map<std::string, std::string>& all_stand_ins() {
         {"Texture", "bilerp directionmix dots marble mix ptex scale", "grey (0.5)"},
         {"", "MakeNamedMedium", "empty space"},
         {"", "TransformTimes", "0 1"},
+        {"", "CoordSysTransform", "the current transform"},
         {"", "rough glass", "smooth glass"},
         {"", "a roughness that differs between u and v", "their geometric mean"},
         {"", "a spectrum that is not known", "the default of its parameter"},
@@ -164,7 +164,7 @@ const std::map<std::string, std::string>& all_stand_ins() {
         {"", "a scene without shapes", "its lights alone"},
         {"", "a scene without light", "a grey sky (0.5)"},
         {"", "a part of the film", "the whole"},
-        {"", "a sensor or white balance", "\"cie1931\""},
+        {"", "the film's response", "that of \"cie1931\" at iso 100"},
         {"", "a lens, in a chapter without one", "a pinhole"},
         {"", "glass that disperses, in a chapter without it", "glass of one index"},
         {"", "a shape that moves, in a chapter where all rest", "one that rests at its start"},
