@@ -117,30 +117,28 @@ Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
 [[gnu::noinline]] void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
     Ray rest = ray;
     if (x) rest.t_max = x->t;
-    for (const auto& each : scene.movers) {
-        const Mover& mover = *each;
-        if (!meets(rest, mover.box.low, mover.box.high)) continue;
-        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        Ray back = carried_back(mover, rest, world_from_start);
-        PrimHit found = closest_hit(*mover.bvh, mover.geometry, back);
+    for (const auto& mover : scene.movers) {
+        if (!meets(rest, mover->box.low, mover->box.high)) continue;
+        Transform world_from_start = mover->world_from_start(static_cast<double>(ray.time));
+        Ray back = carried_back(*mover, rest, world_from_start);
+        PrimHit found = closest_hit(*mover->bvh, mover->geometry, back);
         if (found.prim == PrimHit::none) continue;
         x.emplace();
-        const Shape& shape = place_hit(scene, mover.geometry, back, found, *x);
+        const Shape& shape = place_hit(scene, mover->geometry, back, found, *x);
         x->material = &scene.materials[shape.material];
-        if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
+        if (x->material->texture != 0) look_up_texture(scene, mover->geometry, found, *x);
         carry_on(world_from_start, *x);
         rest.t_max = found.t;
-        found.prim += mover.first_prim;
+        found.prim += mover->first_prim;
         finish_hit(scene, shape, rest, found, *x);
     }
 }
 
 [[gnu::noinline]] bool occluded_by_movers(const Scene& scene, const Ray& ray) {
-    for (const auto& each : scene.movers) {
-        const Mover& mover = *each;
-        if (!meets(ray, mover.box.low, mover.box.high)) continue;
-        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        if (any_hit(*mover.bvh, mover.geometry, carried_back(mover, ray, world_from_start)))
+    for (const auto& mover : scene.movers) {
+        if (!meets(ray, mover->box.low, mover->box.high)) continue;
+        Transform world_from_start = mover->world_from_start(static_cast<double>(ray.time));
+        if (any_hit(*mover->bvh, mover->geometry, carried_back(*mover, ray, world_from_start)))
             return true;
     }
     return false;

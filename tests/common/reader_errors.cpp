@@ -193,16 +193,4 @@ TEST_SUITE("reader: malformed input") {
             CHECK(said.ends_with(c.message));
         }
     }
-
-    TEST_CASE("files: all files together end at their limit") {
-        TemporaryFolder folder;
-        const std::string beside = folder.path() + "/", include = "Include \"part.pbrt\"\n",
-                          place = folder / "scene.pbrt";
-        write(folder, "part.pbrt", "Shape \"sphere\"" + std::string(986, ' '));
-        Limits limits;
-        limits.file_bytes = 3000;
-        CHECK(refuse(world + repeated(include, 3), limits, beside) == "");
-        CHECK(refuse(world + repeated(include, 4), limits, beside)
-                  .starts_with(place + ":5:1: error: more than 3000 bytes"));
-    }
 }
