@@ -25,10 +25,6 @@ inline bool read_mapping(const Params& params, Texture& texture) {
 
 // How codes become linear values, see to_linear().
 inline const std::map<std::string, float> encodings = {{"linear", 1.0f}, {"sRGB", 0.0f}};
-inline const std::map<std::string, Texture::Wrap> wraps = {{"black", Texture::Wrap::black},
-                                                           {"clamp", Texture::Wrap::clamp},
-                                                           {"repeat", Texture::Wrap::repeat}};
-
 /// The picture that "filename" names. Nothing where its stand-in is to be taken, grey.
 ///
 /// gamma  how codes become linear values, see to_linear()
@@ -105,7 +101,8 @@ private:
         Texture texture;
         texture.kind = Texture::Kind::picture;
         bool is_uv = read_mapping(params, texture);
-        texture.wrap = look_up(wraps, params.string("wrap", "repeat"), "wrap", params.at("wrap"));
+        bool repeats = params.string("wrap", "repeat") == "repeat";
+        if (!repeats) params.stand_in("a wrap other than \"repeat\"", "wrap");
         texture.nearest = params.string("filter") == "point";
         texture.inverted = params.boolean("invert");
         float scale = params.number("scale");

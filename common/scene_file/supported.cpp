@@ -151,6 +151,7 @@ const std::map<std::string, std::string>& all_stand_ins() {
         {"", "a texture that is no reflectance", "the default of its parameter"},
         {"", "a checkerboard of 3 dimensions", "grey (0.5)"},
         {"", "a mapping other than \"uv\"", "grey (0.5)"},
+        {"", "a wrap other than \"repeat\"", "\"repeat\""},
         {"", "a textured mesh without usable uv", "grey (0.5)"},
         {"", "a picture that cannot be read", "grey (0.5)"},
         {"", "a mesh that cannot be read", "nothing"},
