@@ -296,7 +296,6 @@ private:
         if (moves && where.emission) input_.stand_in(params.at(), moving_light);
         std::shared_ptr<Mover> mover;
         if (moves && !where.emission) {
-            check_limit(params.at(), scene_.movers.size() + 1, 1000, "shapes that move");
             mover = std::make_shared<Mover>(where.start, where.end);
             mover->at = kept(params.at());
             std::swap(scene_.geometry, mover->geometry);

@@ -157,7 +157,7 @@ const std::map<std::string, std::string>& all_stand_ins() {
         {"", "a mesh that cannot be read", "nothing"},
         {"", "a scene file that cannot be read", "nothing"},
         {"", "a part of a sphere or disk", "the whole"},
-        {"", "a sphere or disk scaled differently along its axes", "one of their mean size"},
+        {"", "a sphere or disk scaled differently along its axes", "one scaled as its x axis is"},
         {"", "a light or camera that moves", "one that rests as when the shutter opens"},
         {"", "an image on an area light", "its L alone"},
         {"", "the illuminance of a picture of the sky", "the picture as it is"},
