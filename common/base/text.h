@@ -145,6 +145,13 @@ inline std::string percent(double share) {
     return format(std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
 }
 
+/// x with `significant` digits; "infinite", or "unknown" if it is not a number.
+inline std::string digits(double x, int significant = 5) {
+    if (std::isnan(x)) return "unknown";
+    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
+    return format("%.*g", significant, x);
+}
+
 /// A text in JSON's quotes, of what can be printed.
 inline std::string json_quoted(std::string_view text) {
     std::string json = "\"";

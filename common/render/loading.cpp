@@ -68,8 +68,8 @@ void fit_features(Scene& scene, Features features, bool stand_ins) {
         without(!features.rough && is_rough(m), m.at,
                 "rough conductors are not supported before chapter 13", "");
     }
-    for (const Mover& mover : scene.movers)
-        without(!features.shutter, mover.at, "shapes move in chapters 16 to 22 only",
+    for (const auto& mover : scene.movers)
+        without(!features.shutter, mover->at, "shapes move in chapters 16 to 22 only",
                 "a shape that moves, in a chapter where all rest");
     bool lacks_sky = !features.sky_image && scene.sky_image;
     without(lacks_sky, lacks_sky ? scene.sky_image->at_file : nullptr,

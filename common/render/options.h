@@ -163,9 +163,6 @@ struct Table {
     std::vector<std::vector<std::string>> rows;
 };
 
-/// x with `significant` digits; "infinite", or "unknown" if it is not a number.
-std::string digits(double x, int significant = 5);
-
 /// One line per row, the columns aligned to the right (the first to the left).
 std::string aligned(const Table& table);
 std::string tab_separated(const Table& table);

@@ -186,12 +186,6 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
     return r.stats.interrupted ? 3 : 0;
 }
 
-std::string digits(double x, int significant) {
-    if (std::isnan(x)) return "unknown";
-    if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    return format("%.*g", significant, x);
-}
-
 /// A line for the names of the columns and for each row.
 static std::string lines_of(const Table& table, bool aligned) {
     std::vector<std::vector<std::string>> lines = table.rows;

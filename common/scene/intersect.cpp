@@ -117,28 +117,28 @@ Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
 [[gnu::noinline]] void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
     Ray rest = ray;
     if (x) rest.t_max = x->t;
-    for (const Mover& mover : scene.movers) {
-        if (!meets(rest, mover.box.low, mover.box.high)) continue;
-        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        Ray back = carried_back(mover, rest, world_from_start);
-        PrimHit found = closest_hit(*mover.bvh, mover.geometry, back);
+    for (const auto& mover : scene.movers) {
+        if (!meets(rest, mover->box.low, mover->box.high)) continue;
+        Transform world_from_start = mover->world_from_start(static_cast<double>(ray.time));
+        Ray back = carried_back(*mover, rest, world_from_start);
+        PrimHit found = closest_hit(*mover->bvh, mover->geometry, back);
         if (found.prim == PrimHit::none) continue;
         x.emplace();
-        const Shape& shape = place_hit(scene, mover.geometry, back, found, *x);
+        const Shape& shape = place_hit(scene, mover->geometry, back, found, *x);
         x->material = &scene.materials[shape.material];
-        if (x->material->texture != 0) look_up_texture(scene, mover.geometry, found, *x);
+        if (x->material->texture != 0) look_up_texture(scene, mover->geometry, found, *x);
         carry_on(world_from_start, *x);
         rest.t_max = found.t;
-        found.prim += mover.first_prim;
+        found.prim += mover->first_prim;
         finish_hit(scene, shape, rest, found, *x);
     }
 }
 
 [[gnu::noinline]] bool occluded_by_movers(const Scene& scene, const Ray& ray) {
-    for (const Mover& mover : scene.movers) {
-        if (!meets(ray, mover.box.low, mover.box.high)) continue;
-        Transform world_from_start = mover.world_from_start(static_cast<double>(ray.time));
-        if (any_hit(*mover.bvh, mover.geometry, carried_back(mover, ray, world_from_start)))
+    for (const auto& mover : scene.movers) {
+        if (!meets(ray, mover->box.low, mover->box.high)) continue;
+        Transform world_from_start = mover->world_from_start(static_cast<double>(ray.time));
+        if (any_hit(*mover->bvh, mover->geometry, carried_back(*mover, ray, world_from_start)))
             return true;
     }
     return false;
@@ -174,19 +174,16 @@ bool occluded(const Scene& scene, const Ray& ray) {
 }
 
 Vec3 mesh_normal(const Scene& scene, const Hit& x) {
-    const Geometry* g = &scene.geometry;
-    uint32_t prim = x.prim;
-    Transform world_from_start;
-    auto behind = std::upper_bound(
-        scene.movers.begin(), scene.movers.end(), prim,
-        [](uint32_t number, const Mover& mover) { return number < mover.first_prim; });
-    if (behind != scene.movers.begin()) {
-        g = &behind[-1].geometry;
-        prim -= behind[-1].first_prim;
-        world_from_start = behind[-1].world_from_start(static_cast<double>(x.time));
+    const Mover* mover = nullptr;
+    for (const auto& each : scene.movers) {
+        if (x.prim >= each->first_prim) mover = each.get();
     }
+    const Geometry& g = mover ? mover->geometry : scene.geometry;
+    uint32_t prim = mover ? x.prim - mover->first_prim : x.prim;
+    Transform world_from_start;
+    if (mover) world_from_start = mover->world_from_start(static_cast<double>(x.time));
     Vec3 back = to_vec3(transform_point(inverse(world_from_start), Vec3d(x.p)));
-    Vec3d smooth(interpolated_normal(*g, prim, back));
+    Vec3d smooth(interpolated_normal(g, prim, back));
     Vec3 n = to_vec3(transform_normal(world_from_start, smooth));
     if (!(dot(n, n) > 0)) return x.ng;
     n = normalize(n);

@@ -47,5 +47,6 @@ Vec3 mesh_normal(const Scene& scene, const Hit& x);
 /// The same for any surface. That is x.n but where x.n would look away from the ray that found x:
 /// there finish_hit() has put x.ng in its place.
 inline Vec3 smooth_normal(const Scene& scene, const Hit& x) {
-    return scene.has_normals && x.n == x.ng ? mesh_normal(scene, x) : x.n;
+    bool may_differ = scene.moves || !scene.geometry.normals.empty();
+    return may_differ && x.n == x.ng ? mesh_normal(scene, x) : x.n;
 }

@@ -78,13 +78,7 @@ Transform Motion::at(double time) const {
 Box box_over_time(const Mover& mover) {
     // Where the corners of its box come to: along straight lines, or somewhere on a sphere, since
     // turning keeps a point at its distance from the object's origin, which goes straight.
-    Box box = bounds_of(mover.geometry);
-    Vec3d low = {1e30, 1e30, 1e30}, high = -1 * low;
-    auto add = [&](Vec3d p, double r) {
-        for (size_t i = 0; i < 3; i++) {
-            low[i] = std::min(low[i], p[i] - r), high[i] = std::max(high[i], p[i] + r);
-        }
-    };
+    Box box = bounds_of(mover.geometry), over_time;
     Vec3d origins[] = {mover.motion.at(0).o, mover.motion.at(1).o};
     for (int corner = 0; corner < 8; corner++) {
         Vec3d p =
@@ -92,16 +86,13 @@ Box box_over_time(const Mover& mover) {
                        corner & 4 ? box.low.z : box.high.z});
         for (int end = 0; end < 2; end++) {
             Vec3d moved = transform_point(mover.world_from_start(end), p);
-            double r = length(moved - origins[end]);
-            if (!mover.motion.turns()) add(moved, 0);
-            if (mover.motion.turns()) add(origins[0], r), add(origins[1], r);
+            over_time.add(to_vec3(moved));
+            if (!mover.motion.turns()) continue;
+            float r = static_cast<float>(length(moved - origins[end]));
+            for (Vec3d o : origins) over_time.add(box_of_ball(to_vec3(o), r));
         }
     }
-    for (size_t i = 0; i < 3; i++) {
-        double slack =
-            1e-5 * (high[i] - low[i]) + 1e-6 * std::max(std::abs(high[i]), std::abs(low[i]));
-        box.low[static_cast<int>(i)] = static_cast<float>(low[i] - slack);
-        box.high[static_cast<int>(i)] = static_cast<float>(high[i] + slack);
-    }
-    return box;
+    const auto& [low, high] = over_time;
+    Vec3 slack = 1e-5f * (high - low) + 1e-6f * max(abs(high), abs(low));
+    return {low - slack, high + slack};
 }

@@ -11,27 +11,20 @@ float angle_of(float y, float x) { return static_cast<float>(std::atan2(double{y
 
 int floor_to_int(float x) { return static_cast<int>(std::floor(x)); }
 
-// A texel; i and j may lie beside the picture.
-Rgb texel(const TexturePicture& picture, Texture::Wrap wrap, int i, int j) {
-    auto inside = [&](int k, int n) {
-        if (wrap == Texture::Wrap::repeat) return (k % n + n) % n;
-        return std::clamp(k, 0, n - 1);
-    };
-    int x = inside(i, picture.width), y = inside(j, picture.height);
-    if (wrap == Texture::Wrap::black && (x != i || y != j)) return {};
-    return picture.texels[static_cast<size_t>(y) * static_cast<size_t>(picture.width) +
-                          static_cast<size_t>(x)];
+// A texel; i and j may lie beside the picture, which repeats itself there.
+Rgb texel(const TexturePicture& picture, int i, int j) {
+    auto inside = [](int k, int n) { return static_cast<size_t>((k % n + n) % n); };
+    size_t width = static_cast<size_t>(picture.width);
+    return picture.texels[inside(j, picture.height) * width + inside(i, picture.width)];
 }
 
 // The picture's value at (s, t).
 Rgb look_up(const TexturePicture& picture, const Texture& texture, Vec2 st) {
     // Keep x and y near the picture, so that the numbers of texels fit into an int.
-    auto near = [&](float x) {
-        return texture.wrap == Texture::Wrap::repeat ? x - std::floor(x) : std::clamp(x, -1.f, 2.f);
-    };
+    auto near = [](float x) { return x - std::floor(x); };
     float x = near(st.x) * static_cast<float>(picture.width);
     float y = near(1 - st.y) * static_cast<float>(picture.height);
-    auto at = [&](int i, int j) { return texel(picture, texture.wrap, i, j); };
+    auto at = [&](int i, int j) { return texel(picture, i, j); };
     if (texture.nearest) return at(floor_to_int(x), floor_to_int(y));
 
     int i = floor_to_int(x - 0.5f), j = floor_to_int(y - 0.5f);

@@ -76,43 +76,29 @@ Polygon corners_of(const Emitter& e) {
     return corners;
 }
 
-/// Twice the area of a flat polygon, along its normal.
-Vec3d area_of(const Polygon& p) {
-    Vec3d sum;
-    for (size_t i = 2; i < p.size(); i++) sum = sum + cross(p[i - 1] - p[0], p[i] - p[0]);
-    return sum;
-}
+Vec3d normal_of(const Polygon& p) { return normalize(cross(p[1] - p[0], p[2] - p[0])); }
 
-/// The part of polygon a that lies straight above or below b; n: the normal of b.
-/// source  Sutherland, Hodgman 1974
-Polygon clip(Polygon a, const Polygon& b, Vec3d n) {
-    for (size_t k = 0; k < b.size(); k++) {
-        Vec3d inward = cross(n, b[(k + 1) % b.size()] - b[k]);
-        Polygon kept;
-        for (size_t i = 0; i < a.size(); i++) {
-            Vec3d p = a[i], q = a[(i + 1) % a.size()];
-            double at_p = dot(p - b[k], inward), at_q = dot(q - b[k], inward);
-            if (at_p >= 0) kept.push_back(p);
-            if ((at_p >= 0) != (at_q >= 0)) kept.push_back(p + at_p / (at_p - at_q) * (q - p));
-        }
-        a = kept;
+/// Whether b lies beside one of the edges of a, but for a thousandth of that edge.
+bool is_beside(const Polygon& a, const Polygon& b) {
+    for (size_t k = 0; k < a.size(); k++) {
+        Vec3d edge = a[(k + 1) % a.size()] - a[k], inward = cross(normal_of(a), edge);
+        auto is_outside = [&](Vec3d p) { return dot(p - a[k], inward) <= 1e-3 * dot(edge, edge); };
+        if (std::all_of(b.begin(), b.end(), is_outside)) return true;
     }
-    return a;
+    return false;
 }
 
-/// Whether two primitives lie in one place: balls, or faces that overlap by a thousandth of the
-/// smaller one and there lie in one plane, up to rounding.
+/// Whether two flat primitives overlap and lie in one plane, up to rounding.
 bool coincide(const Emitter& e, const Emitter& f, double rounding) {
     Polygon a = corners_of(e), b = corners_of(f);
-    if (a.empty() || b.empty()) {
-        return a.empty() && b.empty() && length(Vec3d(e.p0) - Vec3d(f.p0)) < rounding &&
-               double{std::abs(e.r - f.r)} < rounding;
-    }
-    Vec3d area = area_of(b), n = normalize(area);
-    auto is_in_plane = [&](Vec3d p) { return std::abs(dot(p - b[0], n)) <= rounding; };
-    Polygon both = clip(a, b, n);
-    return std::all_of(both.begin(), both.end(), is_in_plane) &&
-           length(area_of(both)) > 1e-3 * std::min(length(area), length(area_of(a)));
+    if (a.empty() || b.empty()) return false;
+    auto lies_in = [&](const Polygon& p, const Polygon& plane) {
+        Vec3d n = normal_of(plane);
+        return std::all_of(p.begin(), p.end(), [&](Vec3d corner) {
+            return std::abs(dot(corner - plane[0], n)) <= rounding;
+        });
+    };
+    return (lies_in(a, b) || lies_in(b, a)) && !is_beside(a, b) && !is_beside(b, a);
 }
 
 }  // namespace
@@ -147,12 +133,7 @@ float area_of(const Emitter& e) {
     return 0;
 }
 
-Scene::Scene() : origin(std::make_shared<Origin>()) {}
-Scene::Scene(const Scene&) = default;
-Scene::Scene(Scene&&) = default;
-Scene& Scene::operator=(const Scene&) = default;
-Scene& Scene::operator=(Scene&&) = default;
-Scene::~Scene() = default;
+std::shared_ptr<const Origin> no_origin() { return std::make_shared<Origin>(); }
 
 Position Scene::place(const Position* at) const { return at ? *at : Position{origin->file}; }
 
@@ -177,17 +158,15 @@ void prepare(Scene& scene, int threads, const Report& report) {
 
     if (report) report("preparing lights and surfaces", 0);
     scene.moves = !scene.movers.empty();
-    scene.has_normals = !scene.geometry.normals.empty();
     Box box = bounds_of(scene.geometry);
     uint32_t prims = scene.geometry.size();
-    for (Mover& mover : scene.movers) {
-        mover.first_prim = prims;
-        scene.has_normals = scene.has_normals || !mover.geometry.normals.empty();
-        prims += mover.geometry.size();
-        mover.geometry.facet_normals = facet_normals(mover.geometry);
-        mover.bvh = std::make_shared<Bvh>(build_bvh(mover.geometry, threads));
-        mover.box = box_over_time(mover);
-        box.add(mover.box);
+    for (const auto& mover : scene.movers) {
+        mover->first_prim = prims;
+        prims += mover->geometry.size();
+        mover->geometry.facet_normals = facet_normals(mover->geometry);
+        mover->bvh = std::make_shared<Bvh>(build_bvh(mover->geometry, threads));
+        mover->box = box_over_time(*mover);
+        box.add(mover->box);
     }
     bool empty = scene.geometry.size() == 0 && scene.movers.empty();
     // Without shapes a sphere around the camera, so that skies and suns have a power.
@@ -221,13 +200,10 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
                 if (!once || max_component(gap) > rounding) continue;
                 if (!coincide(emitter_of(scene, a), emitter_of(scene, b), double{rounding}))
                     continue;
-                std::string faces =
-                    other.light < 0 ? "this lamp and the Shape at " : "this lamp and the lamp at ";
-                faces += place_text(scene.place(other.at));
-                if (&other == &shape_of(a)) faces = "faces of this lamp";
                 std::string note = message_at(
                     scene.place(light.at), "note",
-                    faces + " lie in one place, where rounding decides which of them a ray meets");
+                    "this lamp and the Shape at " + place_text(scene.place(other.at)) +
+                        " lie in one place, where rounding decides which of them a ray meets");
                 if (std::find(notes.begin(), notes.end(), note) == notes.end())
                     notes.push_back(note);
             }

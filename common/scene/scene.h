@@ -77,22 +77,24 @@ struct Camera {
     const Position* at = nullptr;  // where a scene file sets it up, for messages
 };
 
+/// That of a scene that was made without a file.
+std::shared_ptr<const Origin> no_origin();
+
 struct Scene {
-    std::shared_ptr<const Origin> origin;  // the files that it was read from; never null
+    std::shared_ptr<const Origin> origin = no_origin();  // the files it was read from; never null
     Geometry geometry;
     std::vector<Shape> shapes;
     std::vector<Material> materials;
     std::shared_ptr<const Textures> textures;  // null: none
     std::vector<Light> lights;
-    std::vector<LightShape> light_shapes;       // one for each light
-    Vec3 centre;                                // of a sphere around all primitives
-    float radius = 0;                           // m, of that sphere
-    int sky_light = -1;                         // the infinite light among them; -1: none
-    Rgb sky;                                    // what infinite lights send, if none has an image
-    std::shared_ptr<const SkyImage> sky_image;  // else the sum of all infinite lights
-    std::vector<Mover> movers;                  // shapes that move; they do not shine
-    bool moves = false;                         // has movers; prepare() finds out, as the next one
-    bool has_normals = false;                   // of a mesh's corners
+    std::vector<LightShape> light_shapes;        // one for each light
+    Vec3 centre;                                 // of a sphere around all primitives
+    float radius = 0;                            // m, of that sphere
+    int sky_light = -1;                          // the infinite light among them; -1: none
+    Rgb sky;                                     // what infinite lights send, if none has an image
+    std::shared_ptr<const SkyImage> sky_image;   // else the sum of all infinite lights
+    std::vector<std::shared_ptr<Mover>> movers;  // shapes that move; they do not shine
+    bool moves = false;                          // has movers; prepare() finds out
     Camera camera;
     int width = 1280, height = 720;  // pixels
     int spp = 16;                    // samples per pixel
@@ -101,12 +103,4 @@ struct Scene {
 
     /// What messages name: the place, if it is known, or else the file.
     Position place(const Position* at) const;
-
-    // The compiler's own; defined in prepare.cpp, where all parts are known.
-    Scene();
-    Scene(const Scene&);
-    Scene(Scene&&);
-    Scene& operator=(const Scene&);
-    Scene& operator=(Scene&&);
-    ~Scene();
 };

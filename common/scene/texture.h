@@ -14,14 +14,12 @@ struct Scene;
 /// One texture. Its coordinates on the surface are (s, t) = scale * (u, v) + shift.
 ///
 ///   constant      value
-///   picture       value * the picture at (s, t), or 1 minus that (inverted)
+///   picture       value * the picture at (s, t), which repeats itself; or 1 minus that (inverted)
 ///   checkerboard  the first input where floor(s) + floor(t) is even, else the second
 struct Texture {
     enum class Kind : uint8_t { constant, picture, checkerboard };
-    enum class Wrap : uint8_t { repeat, clamp, black };  // what is beside the picture
 
     Kind kind = Kind::constant;
-    Wrap wrap = Wrap::repeat;
     bool nearest = false, inverted = false;  // nearest: the texel there, not a mean of four
     Rgb value = {1, 1, 1};
     Vec2 scale = {1, 1}, shift;

@@ -59,7 +59,6 @@ struct Input {
     std::set<std::string> texts = {};      // of errors and notes
     std::map<std::string, std::set<Position>> used = {};  // stand-ins, and where
     Origin origin = {};                                   // what was read
-    uint64_t bytes_read = 0;
     Checksum checksum = {};
 
     /// Each text is said only once, with its first place; at most 100 notes are kept.
@@ -117,8 +116,7 @@ struct Input {
         std::error_code none;
         return file_name(std::filesystem::exists(path, none) ? path : from_main);
     }
-    /// The bytes of the file; throws at the place that names it when it cannot be read, or when
-    /// more than the limit would be read in all.
+    /// The bytes of the file; throws at the place that names it when it cannot be read.
     std::string read(const std::string& path, const Position& at) {
         std::string bytes;
         try {
@@ -129,12 +127,11 @@ struct Input {
             fail(at, quote_file(path) + text.substr(text.rfind(": error: ") + 7));
         }
         add_file(path, bytes);
-        bytes_read += bytes.size();
-        check_limit(at, bytes_read, limits.file_bytes, "bytes in all files together");
         return bytes;
     }
     /// Keeps which files are read, and a checksum of them in the order in which they are read.
     void add_file(const std::string& path, const std::string& bytes) {
+        if (report) report("reading " + path, 0);
         origin.files.insert(path);
         uint64_t size = bytes.size();
         checksum.add({reinterpret_cast<const char*>(&size), sizeof size});

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/base/parallel.h"
 #include "common/base/text.h"
 
 /// An error behind which nothing more is read: a limit that is passed, a string without an end.
@@ -32,8 +31,7 @@ struct Token {
 /// ReadingEnds for a string without its end.
 class Lexer {
 public:
-    Lexer(std::string file, std::string bytes, const Report& report = {})
-        : file_(std::move(file)), bytes_(std::move(bytes)), report_(report) {
+    Lexer(std::string file, std::string bytes) : file_(std::move(file)), bytes_(std::move(bytes)) {
         for (size_t i = 0, length = 0; i < bytes_.size(); i += length) {
             length = utf8_length(bytes_, i);
             if (length > 0) continue;
@@ -124,11 +122,6 @@ private:
         while (stands_at(" \t\r\n#")) {
             advance_to(stands_at("#") ? bytes_.find_first_of("\r\n", position_) : position_ + 1);
         }
-        if (report_ && position_ >= next_report_) {
-            next_report_ = position_ + (size_t{1} << 20);
-            double share = static_cast<double>(position_) / static_cast<double>(bytes_.size() + 1);
-            report_("reading " + file_, share);
-        }
         Token token = {Token::end, {}, line_, column_};
         size_t start = position_;
         if (start == bytes_.size()) return token;
@@ -154,8 +147,7 @@ private:
     }
 
     std::string file_, bytes_;
-    Report report_;
-    size_t position_ = 0, next_report_ = 0;
+    size_t position_ = 0;
     int line_ = 1, column_ = 1;
     Token ahead_;
 };

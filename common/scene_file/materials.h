@@ -23,21 +23,8 @@ inline bool read_mapping(const Params& params, Texture& texture) {
     return is_uv;
 }
 
-// How codes become linear values: to this power, or as sRGB codes (0).
-inline float read_encoding(const Params& params) {
-    std::string encoding = params.string("encoding", "sRGB");
-    if (encoding == "sRGB") return 0;
-    if (encoding == "linear") return 1;
-    bool is_gamma = encoding.starts_with("gamma ");
-    auto gamma = to_number(std::string_view(encoding).substr(is_gamma ? 6 : 0));
-    if (is_gamma && gamma && *gamma >= 0.01 && *gamma <= 100) return static_cast<float>(*gamma);
-    fail(params.at("encoding"), "encoding must be sRGB, linear, or gamma and 0.01 to 100");
-}
-
-inline const std::map<std::string, Texture::Wrap> wraps = {{"black", Texture::Wrap::black},
-                                                           {"clamp", Texture::Wrap::clamp},
-                                                           {"repeat", Texture::Wrap::repeat}};
-
+// How codes become linear values, see to_linear().
+inline const std::map<std::string, float> encodings = {{"linear", 1.0f}, {"sRGB", 0.0f}};
 /// The picture that "filename" names. Nothing where its stand-in is to be taken, grey.
 ///
 /// gamma  how codes become linear values, see to_linear()
@@ -114,12 +101,15 @@ private:
         Texture texture;
         texture.kind = Texture::Kind::picture;
         bool is_uv = read_mapping(params, texture);
-        texture.wrap = look_up(wraps, params.string("wrap", "repeat"), "wrap", params.at("wrap"));
+        bool repeats = params.string("wrap", "repeat") == "repeat";
+        if (!repeats) params.stand_in("a wrap other than \"repeat\"", "wrap");
         texture.nearest = params.string("filter") == "point";
         texture.inverted = params.boolean("invert");
         float scale = params.number("scale");
         texture.value = {scale, scale, scale};
-        std::optional<Image> image = read_picture(params, read_encoding(params));
+        const std::string encoding = params.string("encoding", "sRGB");
+        float gamma = look_up(encodings, encoding, "encoding", params.at("encoding"));
+        std::optional<Image> image = read_picture(params, gamma);
         if (!image || !is_uv) return grey(params);
         Rgb most;
         for (Rgb r : image->pixels) most = larger(most, scale * r);

@@ -99,12 +99,6 @@ using KnownParams = std::map<std::string, const ParamRow*>;
 /// Those of each directive, by its type, such as those of Shape and "disk".
 const std::map<std::string, std::map<std::string, KnownParams>>& known_params();
 
-inline std::string digits(double x) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.10g", x);
-    return buffer;
-}
-
 /// The parameters of one directive, of which all that is wrong is told. Those that cannot be used
 /// are left out; of two with one name the last one counts.
 class Params {
@@ -116,12 +110,8 @@ public:
            const ParamMap& defaults)
         : input_(&input), at_(at), directive_(directive), params_(defaults) {
         bool is_named = directive_ == "MakeNamedMaterial";  // of which the type is a parameter
-        Position type_at = at_;
-        if (!is_named) {
-            Token token = lexer.expect(Token::string, directive_ + " needs a type in quotes");
-            type_ = lexer.unescape(token);
-            type_at = lexer.at(token);
-        }
+        const std::string needs = directive_ + " needs a type in quotes";
+        if (!is_named) type_ = lexer.unescape(lexer.expect(Token::string, needs));
         while (lexer.peek().type == Token::string) {
             Param param = read_param(lexer);
             check_limit(param.at, params_.size() + 1, 100, "parameters of one directive");
@@ -132,11 +122,21 @@ public:
         if (is_named) {
             const Param& type = required("type");
             if (type.type == "string") type_ = type.strings[0];
-            type_at = type.at;
             directive_ = "Material";
             params_.erase("type");
         }
-        check_type(type_at);
+        stands_in_ = !or_stand_in(owner()).empty();
+        if (stands_in_) stand_in(owner());
+        const auto& types = known_params().at(directive_);
+        if (!types.contains(type_)) {
+            refuse_old(at_, type_);
+            std::vector<std::string> known = names_of(types);
+            std::erase_if(known, [&](const std::string& type) {
+                return !or_stand_in(directive_ + ' ' + quote(type)).empty();
+            });
+            fail(at_, unknown(directive_, type_, known));
+        }
+        known_ = &types.at(type_);
         std::erase_if(params_, [&](const auto& param) { return !is_usable(param.second); });
     }
 
@@ -207,20 +207,6 @@ public:
     }
 
 private:
-    void check_type(const Position& at) {
-        stands_in_ = !or_stand_in(owner()).empty();
-        if (stands_in_) input_->stand_in(at, owner());
-        const auto& types = known_params().at(directive_);
-        if (!types.contains(type_)) {
-            refuse_old(at, type_);
-            std::vector<std::string> known = names_of(types);
-            std::erase_if(known, [&](const std::string& type) {
-                return !or_stand_in(directive_ + ' ' + quote(type)).empty();
-            });
-            fail(at, unknown(directive_, type_, known));
-        }
-        known_ = &types.at(type_);
-    }
     bool is_usable(const Param& param) const {
         const std::string given = quote(param.type + ' ' + param.name) + " of " + owner();
         auto found = known_->find(param.name);
@@ -247,8 +233,8 @@ private:
             wrong = given + " has " + std::to_string(count) + " values, not " +
                     (row.values > 0 ? "" : "a multiple of ") + std::to_string(group);
         } else if (std::any_of(param.numbers.begin(), param.numbers.end(), is_outside)) {
-            wrong =
-                quote(param.name) + " must be from " + digits(row.low) + " to " + digits(row.high);
+            wrong = quote(param.name) + " must be from " + digits(row.low, 10) + " to " +
+                    digits(row.high, 10);
         }
         if (!stand_in.empty()) {
             input_->stand_in(param.at, stand_in, wrong);

@@ -48,14 +48,13 @@ private:
             {"Film Integrator PixelFilter Sampler", Block::options, &R::setting},
             {"ActiveTransform", Block::both, &R::active_transform},
             {"AreaLightSource", Block::world, &R::area_light_source},
-            {"Accelerator ColorSpace MakeNamedMedium MediumInterface Option TransformTimes",
+            {"Accelerator ColorSpace CoordSysTransform CoordinateSystem MakeNamedMedium "
+             "MediumInterface Option TransformTimes",
              Block::both, &R::unsupported},
             {"Attribute", Block::both, &R::attribute},
             {"AttributeBegin TransformBegin", Block::world, &R::begin},
             {"AttributeEnd ObjectEnd TransformEnd", Block::world, &R::end},
             {"Camera", Block::options, &R::camera},
-            {"CoordSysTransform", Block::both, &R::coord_sys_transform},
-            {"CoordinateSystem", Block::both, &R::coordinate_system},
             {"Identity Translate Scale Rotate LookAt Transform ConcatTransform", Block::both,
              &R::move},
             {"Import Include", Block::both, &R::include},
@@ -81,7 +80,7 @@ private:
     }
 
     void read(const std::string& path, std::string text) {
-        Lexer lexer(path, std::move(text), input_.report);
+        Lexer lexer(path, std::move(text));
         Lexer* outer = std::exchange(lexer_, &lexer);
         check_limit(at_, ++open_files_, 100, "files in each other");
         while (lexer.peek().type != Token::end) {
@@ -168,13 +167,6 @@ private:
         }
     }
 
-    void coordinate_system() { coordinate_systems_[name()] = {state_.start, state_.end}; }
-
-    void coord_sys_transform() {
-        std::tie(state_.start, state_.end) =
-            look_up(coordinate_systems_, name(), "coordinate system", at_);
-    }
-
     void unsupported() {
         lexer_->skip_arguments();
         if (or_stand_in(name_).empty()) return input_.note(at_, name_ + " is ignored");
@@ -183,26 +175,20 @@ private:
 
     void camera() {
         Params read = params();
-        Transform world_from_camera = inverse(still_transform(read));
-        scene_.camera = read_camera(read, world_from_camera);
-        coordinate_systems_["camera"] = {world_from_camera, world_from_camera};
+        scene_.camera = read_camera(read, inverse(still_transform(read)));
     }
 
-    void setting() { read_setting(name_, params(), scene_, iso_); }
+    void setting() { read_setting(name_, params(), scene_); }
 
     void world_begin() {
         in_world_ = true;
         state_.start = state_.end = {};
         state_.set_start = state_.set_end = true;
-        coordinate_systems_["world"] = {};
     }
 
     void area_light_source() { state_.emission = read_area_light(params()); }
 
-    void begin() {
-        check_limit(at_, blocks_.size() + 1, 1000, "blocks in each other");
-        blocks_.push_back({name_, at_, state_});
-    }
+    void begin() { blocks_.push_back({name_, at_, state_}); }
 
     void end() {
         if (blocks_.empty() || blocks_.back().name.front() != name_.front()) {
@@ -308,10 +294,9 @@ private:
         if (absent_.contains(where.material) || is_nothing || is_clear) return;
         bool moves = where.start != where.end;
         if (moves && where.emission) input_.stand_in(params.at(), moving_light);
-        std::optional<Mover> mover;
+        std::shared_ptr<Mover> mover;
         if (moves && !where.emission) {
-            check_limit(params.at(), scene_.movers.size() + 1, 1000, "shapes that move");
-            mover.emplace(where.start, where.end);
+            mover = std::make_shared<Mover>(where.start, where.end);
             mover->at = kept(params.at());
             std::swap(scene_.geometry, mover->geometry);
         }
@@ -322,7 +307,7 @@ private:
         check_limit(params.at(), g.positions.size(), input_.limits.vertices, "vertices");
         if (!mover) return;
         std::swap(scene_.geometry, mover->geometry);
-        if (mover->geometry.size() > 0) scene_.movers.push_back(std::move(*mover));
+        if (mover->geometry.size() > 0) scene_.movers.push_back(mover);
     }
 
     void texture() { textures_.read(*lexer_, at_, input_, state_.defaults["Texture"]); }
@@ -354,7 +339,7 @@ private:
         }
         place_instances();
         check_uvs(scene_.geometry);
-        for (const Mover& mover : scene_.movers) check_uvs(mover.geometry);
+        for (const auto& mover : scene_.movers) check_uvs(mover->geometry);
         if (!in_world_) fail(file, "no WorldBegin");
         if (!options_read_.contains("Camera")) fail(file, "no Camera");
         if (scene_.geometry.size() == 0 && scene_.movers.empty()) {
@@ -390,13 +375,13 @@ private:
         // From all sides, and 1e9 m away: 1e35 W. Powers of brighter lights may be no floats.
         constexpr float brightest = 1e15f;
         const Camera& camera = scene_.camera;
-        float exposure = (camera.shutter_close - camera.shutter_open) * iso_ / 100, most = 0;
+        float exposure = camera.shutter_close - camera.shutter_open, most = 0;
         for (Rgb& each : L) {
             each *= exposure;
             most = std::max(most, is_finite(each) ? max_component(each) : infinity);
         }
         if (most > 0 && most <= brightest) return;
-        input_.error(*at, "the light, times shutter and iso / 100, is 0 or more than 1e15");
+        input_.error(*at, "the light, times the shutter's time, is 0 or more than 1e15");
     }
 
     void finish() {
@@ -420,7 +405,6 @@ private:
     TextureReader textures_;
     Scene scene_;
     std::optional<SkyImage> sky_image_;
-    float iso_ = 100;
     bool in_world_ = false;
 
     Lexer* lexer_ = nullptr;              // of the innermost file
@@ -440,7 +424,6 @@ private:
     std::map<std::string, uint32_t> named_materials_;  // into Scene::materials
     std::map<std::string, Position> unmade_;           // those that are only used yet, and where
     std::set<uint32_t> absent_;  // materials of surfaces that are as if they were not there
-    std::map<std::string, std::pair<Transform, Transform>> coordinate_systems_;  // start and end
     using Shapes = std::vector<std::pair<Params, State>>;  // between ObjectBegin and ObjectEnd
     std::map<std::string, Shapes> objects_;
     std::vector<Place> instances_;

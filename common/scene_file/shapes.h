@@ -27,7 +27,7 @@ inline std::vector<uint32_t> read_indices(const Params& params, size_t vertices,
     std::vector<uint32_t> indices;
     for (double index : numbers) {
         if (index < 0 || index >= static_cast<double>(vertices)) {
-            fail(at, "index " + digits(index) + " is out of range: there are " +
+            fail(at, "index " + digits(index, 10) + " is out of range: there are " +
                          std::to_string(vertices) + " vertices");
         }
         indices.push_back(static_cast<uint32_t>(index));
@@ -121,20 +121,18 @@ inline void add_mesh(const Params& params, const TriangleMesh& mesh, const State
                 std::to_string(mesh.faces_left_out));
 }
 
-// The mean factor by which the transform scales these axes; not supported where they differ.
-inline double mean_scale(const Params& params, const std::vector<Vec3d>& axes) {
+// The factor by which the transform scales these axes; not supported where they differ.
+inline double scale_of(const Params& params, const std::vector<Vec3d>& axes) {
     constexpr double tolerance = 1e-3;  // for numbers written with few digits
-    double scale = length(axes[0]), product = 1;
+    double scale = length(axes[0]);
     bool is_uniform = true;
     for (size_t i = 0; i < axes.size(); i++) {
         Vec3d next = axes[(i + 1) % axes.size()];
         is_uniform &= std::abs(length(next) - scale) <= tolerance * scale;
         is_uniform &= std::abs(dot(axes[i], next)) <= tolerance * scale * scale;
-        product *= length(next);
     }
-    if (is_uniform) return scale;
-    params.stand_in("a sphere or disk scaled differently along its axes");
-    return std::pow(product, 1 / static_cast<double>(axes.size()));
+    if (!is_uniform) params.stand_in("a sphere or disk scaled differently along its axes");
+    return scale;
 }
 
 // Adds a sphere or a disk, which is to be whole. pbrt clamps its limits to the whole.
@@ -147,7 +145,7 @@ inline void add_round(const Params& params, const State& state, Shape& shape, Sc
     if (params.number("phimax") < 360 || params.number("innerradius") != 0 || !is_whole) {
         params.stand_in("a part of a sphere or disk");
     }
-    double scale = mean_scale(params, is_disk ? std::vector{t.x, t.y} : std::vector{t.x, t.y, t.z});
+    double scale = scale_of(params, is_disk ? std::vector{t.x, t.y} : std::vector{t.x, t.y, t.z});
     float r = static_cast<float>(radius * scale);
     if (!(r * r >= std::numeric_limits<float>::min())) {
         fail(params.at("radius"), params.owner() + " is smaller than 1e-18: choose a smaller unit");
@@ -193,7 +191,6 @@ inline void read_shape(const Params& params, const State& state, Scene& scene) {
         std::string path = input.find(name.at, name.strings[0]);
         TriangleMesh mesh;
         bool is_read = input.try_to_read(params.at(), "a mesh that cannot be read", [&] {
-            if (input.report) input.report("reading " + path, 0);
             mesh = parse_ply(path, input.read(path, name.at), input.limits);
         });
         if (is_read) add_mesh(params, mesh, state, each, scene);

@@ -133,7 +133,7 @@ TEST_SUITE("motion") {
                 Transform end = translation(c.end * any_direction(random)) * any_rotation(random) *
                                 scaling({c.size, c.size, 1.5 * c.size});
                 Scene scene = moving_mesh(start, end);
-                const Mover& mover = scene.movers[0];
+                const Mover& mover = *scene.movers[0];
                 Ray ray;
                 ray.time = i % 2 == 0 ? 1 : random.u1();
                 Transform now = mover.world_from_start(double{ray.time});

@@ -96,7 +96,7 @@ inline void check_scene(const Scene& scene) {
             require(is_finite(d.c) && d.r > 0 && std::abs(length(d.n) - 1) < 1e-3f, "disk");
     };
     check_geometry(scene.geometry);
-    for (const Mover& mover : scene.movers) check_geometry(mover.geometry);
+    for (const auto& mover : scene.movers) check_geometry(mover->geometry);
     if (scene.sky_image)
         for (Rgb L : scene.sky_image->pixels) require(is_light(L), "pixel of the sky");
     require(scene.width > 0 && scene.height > 0 && scene.spp > 0 && scene.max_depth >= 0, "film");
