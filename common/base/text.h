@@ -52,8 +52,14 @@ inline std::string quote(std::string_view word, size_t longest = 60) {
     return '"' + std::string(word.substr(0, end)) + "...\"";
 }
 
-/// The name of a file in quotes. Only what is too long for one is cut: the end says which it is.
-inline std::string quote_file(const std::string& name) { return quote(name, 4096); }
+/// "a, b and c", where `last` is " and ".
+inline std::string listed(const std::vector<std::string>& words, const std::string& last = ", ",
+                          const std::string& between = ", ") {
+    std::string text;
+    for (size_t i = 0; i < words.size(); i++)
+        text += (i == 0 ? "" : i + 1 < words.size() ? between : last) + words[i];
+    return text;
+}
 
 /// How many letters must be inserted, deleted or replaced to turn a into b.
 inline size_t edit_distance(std::string_view a, std::string_view b) {
@@ -124,15 +130,21 @@ inline std::optional<int> to_integer(std::string_view text) {
     return value;
 }
 
+/// What printf would print, up to 999 bytes of it.
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+    char text[1000];
+    std::snprintf(text, sizeof text, pattern, args...);
+    return text;
+}
+
 /// A share to three digits: 0.0123 is "1.23 %", 0.99999 is "100 %" and not "1e+02 %", 52 is "5200
 /// %".
 ///
 /// tested by  "truth: large shares are written without an exponent"
 inline std::string percent(double share) {
-    char text[400];
     double value = 100 * share;
-    std::snprintf(text, sizeof text, std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
-    return text;
+    return format(std::abs(value) >= 99.95 ? "%.0f %%" : "%.3g %%", value);
 }
 
 /// A text in JSON's quotes, of what can be printed.
@@ -147,8 +159,5 @@ inline std::string json_quoted(std::string_view text) {
 
 /// A number with nine digits; null for what is not finite.
 inline std::string json_number(double value) {
-    if (!std::isfinite(value)) return "null";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    return std::isfinite(value) ? format("%.9g", value) : "null";
 }

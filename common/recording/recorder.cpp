@@ -1,17 +1,10 @@
 #include "common/recording/recorder.h"
 
-#include <cstdio>
-
+#include "common/base/text.h"
 #include "common/scene/intersect.h"
 
 namespace {
 
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-    char text[512];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
-}
 std::string triple(float a, float b, float c) {
     return format("(%.6g, %.6g, %.6g)", double{a}, double{b}, double{c});
 }

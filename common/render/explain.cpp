@@ -23,9 +23,7 @@ struct Svg {
 
     template <typename... Args>
     void add(const char* pattern, Args... args) {
-        char element[400];
-        std::snprintf(element, sizeof element, pattern, args...);
-        text += element;
+        text += format(pattern, args...);
     }
     /// Words with a contrasting outline; `at`: left end of their base line.
     void words(Vec2 at, const std::string& words) {

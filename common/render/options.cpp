@@ -111,13 +111,6 @@ double parse_positive(const std::string& option, const std::string& text) {
     fail_value(option, text, "a number greater than 0");
 }
 
-std::string listed(const std::vector<std::string>& words, const std::string& last) {
-    std::string text;
-    for (size_t i = 0; i < words.size(); i++)
-        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : last) + words[i];
-    return text;
-}
-
 std::string command_line(int argc, char** argv) {
     constexpr auto plain_letters =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";

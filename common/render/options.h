@@ -79,9 +79,6 @@ inline Option flag_option(const std::string& name, const std::string& help, bool
     return {name, "", help, [&](const std::string&) { flag = true; }};
 }
 
-/// "a, b and c", where `last` is " and ".
-std::string listed(const std::vector<std::string>& words, const std::string& last);
-
 /// The command, quoted for the shell: words with special characters are in single quotes.
 std::string command_line(int argc, char** argv);
 

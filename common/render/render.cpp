@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cinttypes>
-#include <cstdio>
 #include <filesystem>
 #include <mutex>
 
@@ -259,13 +258,11 @@ struct TileRenderer {
 /// The options that decide the samples, except seeds and sample numbers.
 Notes film_options(const Scene& scene, const RenderOptions& o) {
     constexpr const char* samplers[] = {"independent", "stratified", "sobol"};
-    char checksum[17];
-    std::snprintf(checksum, sizeof checksum, "%016" PRIx64, scene.origin->checksum);
     bool has_strata = o.sampler == SamplerType::stratified;  // as many strata as samples
     Notes options = {{"chapter", o.name},
                      {"code", code_hash(o.name)},
                      {"scene", printable(file_name(file_path(scene.origin->file).filename()))},
-                     {"checksum", checksum},
+                     {"checksum", format("%016" PRIx64, scene.origin->checksum)},
                      {"size", std::to_string(scene.width) + "x" + std::to_string(scene.height)},
                      {"max-depth", std::to_string(scene.max_depth)},
                      {"sampler", samplers[static_cast<size_t>(o.sampler)]},

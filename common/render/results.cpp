@@ -190,9 +190,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
 std::string digits(double x, int significant) {
     if (std::isnan(x)) return "unknown";
     if (std::isinf(x)) return x > 0 ? "infinite" : "-infinite";
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*g", significant, x);
-    return text;
+    return format("%.*g", significant, x);
 }
 
 /// A line for the names of the columns and for each row.

@@ -99,12 +99,6 @@ using KnownParams = std::map<std::string, const ParamRow*>;
 /// Those of each directive, by its type, such as those of Shape and "disk".
 const std::map<std::string, std::map<std::string, KnownParams>>& known_params();
 
-inline std::string digits(double x) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.10g", x);
-    return buffer;
-}
-
 /// The parameters of one directive, of which all that is wrong is told. Those that cannot be used
 /// are left out; of two with one name the last one counts.
 class Params {
@@ -248,7 +242,7 @@ private:
                     (row.values > 0 ? "" : "a multiple of ") + std::to_string(group);
         } else if (std::any_of(param.numbers.begin(), param.numbers.end(), is_outside)) {
             wrong =
-                quote(param.name) + " must be from " + digits(row.low) + " to " + digits(row.high);
+                quote(param.name) + " must be from " + format("%.10g to %.10g", row.low, row.high);
         }
         if (!stand_in.empty()) {
             input_->stand_in(param.at, stand_in, wrong);

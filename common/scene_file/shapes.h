@@ -27,7 +27,7 @@ inline std::vector<uint32_t> read_indices(const Params& params, size_t vertices,
     std::vector<uint32_t> indices;
     for (double index : numbers) {
         if (index < 0 || index >= static_cast<double>(vertices)) {
-            fail(at, "index " + digits(index) + " is out of range: there are " +
+            fail(at, "index " + format("%.10g", index) + " is out of range: there are " +
                          std::to_string(vertices) + " vertices");
         }
         indices.push_back(static_cast<uint32_t>(index));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -13,13 +12,6 @@
 #include "tests/check/findings.h"
 
 namespace {
-
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-    char text[600];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
-}
 
 /// The picture of a scene, if it is there and can be used; else a note says why not.
 std::optional<Image> read_picture(const std::string& path, const SmallScene& scene, Folder& to) {

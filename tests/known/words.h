@@ -1,15 +1,6 @@
 // The words of small scenes: materials, shapes and places in pbrt's language.
 #pragma once
-#include <cmath>
-#include <cstdio>
-#include <string>
-
-template <typename... Args>
-inline std::string format(const char* pattern, Args... args) {
-    char text[600];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
-}
+#include "common/base/text.h"
 
 inline std::string group(const std::string& inside) {
     return "AttributeBegin " + inside + "AttributeEnd\n";
