@@ -218,18 +218,13 @@ public:
             build(root, all, 0);
             number(root);
         }
-        size_t nodes = wide_.size();
-        bvh_.nodes.resize(nodes);
+        bvh_.nodes.resize(wide_.size());
         bvh_.blocks.resize(leaves_.size());
-        in_chunks(nodes + leaves_.size(), [&](size_t begin, size_t end, int) {
-            for (size_t i = begin; i < end; i++) {
-                if (i < nodes) {
-                    fill_node(*wide_[i], bvh_.nodes[i]);
-                } else {
-                    auto [first, last] = leaves_[i - nodes];
-                    fill_block(first, last, bvh_.blocks[i - nodes]);
-                }
-            }
+        in_chunks(wide_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) fill_node(*wide_[i], bvh_.nodes[i]);
+        });
+        in_chunks(leaves_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) fill_block(leaves_[i], bvh_.blocks[i]);
         });
         return std::move(bvh_);
     }
@@ -424,7 +419,8 @@ private:
             leaves_.push_back({i, std::min(i + lanes, size)});
     }
 
-    void fill_block(uint32_t begin, uint32_t end, BvhBlock& block) {
+    void fill_block(std::pair<uint32_t, uint32_t> leaf, BvhBlock& block) {
+        auto [begin, end] = leaf;
         std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
         std::fill_n(block.prim, lanes, PrimHit::none);
         std::partition(refs_.begin() + begin, refs_.begin() + end,

@@ -1,7 +1,7 @@
 // Uniformly distributed directions in a cone or a spherical triangle. Trigonometric functions are
 // computed in double: in float their last bit differs between libraries.
 #pragma once
-#include "common/geometry/transform.h"
+#include "common/base/vec.h"
 
 /// 1 - cos of a cone's half angle from sin^2, without cancellation for narrow cones.
 inline float one_minus_cos(float sin2) { return sin2 / (1 + std::sqrt(std::max(0.0f, 1 - sin2))); }
