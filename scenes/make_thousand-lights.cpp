@@ -1,6 +1,5 @@
 // Writes thousand-lights.pbrt: a floor and boxes under 1000 small lights of very unequal power.
 // usage: make_thousand-lights FILE.pbrt
-#include <cstdio>
 #include <string>
 
 #include "common/base/error.h"
@@ -28,13 +27,6 @@ Material "diffuse" "rgb reflectance" [0.6 0.6 0.6]
 Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
   "point3 P" [-12 0 -12  -12 0 12  12 0 12  12 0 -12]
 )";
-
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-    char text[1024];
-    std::snprintf(text, sizeof text, pattern, args...);
-    return text;
-}
 
 double between(Sampler& sampler, double low, double high) {
     return low + (high - low) * double{sampler.u1()};

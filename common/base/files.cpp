@@ -142,9 +142,7 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
         if (file_name(file_path(files[i])).starts_with("out/")) make_folder("out");
         for (const std::string& input : inputs) {
             if (!same_file(files[i], input)) continue;
-            std::string name = files[i] == input ? "" : " ('" + input + "')";
-            throw UsageError("error: '" + files[i] + "' is an input" + name +
-                             ", and would be overwritten");
+            throw UsageError("error: '" + files[i] + "' is an input, and would be overwritten");
         }
         for (size_t j = 0; j < i; j++) {
             if (!same_file(files[i], files[j])) continue;

@@ -83,7 +83,6 @@ inline std::string nearest_word(std::string_view word, const std::vector<std::st
     std::string nearest;
     size_t best = word.size() / 2 + 1;
     for (const std::string& candidate : known) {
-        if (candidate.size() >= word.size() + best) continue;  // as many letters to insert
         size_t distance = edit_distance(word, candidate);
         if (distance < best) {
             best = distance;

@@ -190,6 +190,7 @@ struct Gathered {
     std::array<Node*, lanes> node;
     uint32_t size = 0;
 
+    Gathered(Node& root, uint32_t octant) { add(root, lanes, octant); }
     void add(Node& root, size_t places, uint32_t octant) {
         while (places > 1 && root.share[places - 2] == 0) places--;
         if (places == 1) {
@@ -373,8 +374,7 @@ private:
         }
         auto index = static_cast<uint32_t>(wide_.size());
         wide_.push_back(&root);
-        Gathered children;
-        children.add(root, lanes, 7);
+        Gathered children(root, 7);
         for (uint32_t i = 0; i < children.size; i++) {
             children.node[i]->lane = static_cast<uint8_t>(i);
             children.node[i]->number = number(*children.node[i]);
@@ -384,8 +384,7 @@ private:
 
     /// Writes the boxes of the children, their numbers, and for each octant their order.
     void fill_node(Node& root, BvhNode& node) {
-        Gathered children;
-        children.add(root, lanes, 7);
+        Gathered children(root, 7);
         for (uint32_t i = 0; i < lanes; i++) {
             const Node* child = i < children.size ? children.node[i] : nullptr;
             NegatedBox box = child ? child->box : NegatedBox{};
@@ -396,8 +395,7 @@ private:
             node.child[i] = child ? child->number : BvhNode::nothing;
         }
         for (uint32_t octant = 0; octant < 8; octant++) {
-            Gathered sorted;
-            sorted.add(root, lanes, octant);
+            Gathered sorted(root, octant);
             LaneOrder order = 0;
             for (uint32_t i = 0; i < lanes; i++)
                 order |= LaneOrder{i < sorted.size ? sorted.node[i]->lane : i} << (4 * i);

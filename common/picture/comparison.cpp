@@ -104,7 +104,6 @@ Comparison compare(const Image& a, const Image& b, double trim) {
         result.mse += e.squared / static_cast<double>(errors.size());
         result.rel_mse += e.relative / static_cast<double>(errors.size());
     }
-    result.rmse = std::sqrt(result.mse);
     return result;
 }
 

@@ -23,7 +23,7 @@ struct ChannelComparison {
 struct Comparison {
     std::vector<ChannelComparison> rows;  // brightness, red, green, blue
     int blocks = 0;
-    double mse = 0, rmse = 0;
+    double mse = 0;
     double rel_mse = 0;  // of (a-b)^2 / (b^2 + 0.01)
 };
 
