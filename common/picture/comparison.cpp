@@ -109,9 +109,7 @@ Comparison compare(const Image& a, const Image& b, double trim) {
 
 void check_comparable(const Image& a, const std::string& name_a, const Image& b,
                       const std::string& name_b) {
-    auto size = [](const Image& image) {
-        return std::to_string(image.width) + "x" + std::to_string(image.height);
-    };
+    auto size = [](const Image& image) { return format("%dx%d", image.width, image.height); };
     if (size(a) != size(b))
         fail({name_b}, "has " + size(b) + " pixels, but " + name_a + " has " + size(a));
     for (const auto& [image, name] : {std::pair(&a, name_a), {&b, name_b}})
@@ -209,7 +207,7 @@ std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
     std::string z = format(" (%.3g standard errors)", most);
     if (!means.empty()) return "other means: A is " + means + " than B" + z;
     if (blocks > 0)
-        return "the same mean within the noise, but not everywhere: " + std::to_string(blocks) +
-               " of " + std::to_string(c.blocks) + " blocks differ by more than noise does";
+        z = format(", but not everywhere: %d of %d blocks differ by more than noise does", blocks,
+                   c.blocks);
     return "the same mean within the noise" + z;
 }
