@@ -16,8 +16,7 @@ std::string file_name(const fs::path& path) {
 
 static std::atomic<bool> are_caught = false;
 static std::atomic<int64_t> first_times[NSIG];  // ns, of the first signal of each kind; 0: none
-static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler must not touch it
-static_assert(std::atomic<int64_t>::is_always_lock_free);
+static_assert(std::atomic<int64_t>::is_always_lock_free);  // or a handler must not touch it
 
 /// Ends the program as the signal does where nobody handles it.
 static void end_by_signal(int signal);
