@@ -52,11 +52,14 @@ inline Table steps_table(const Scene& scene) {
 /// The boxes and primitives that the ray through each pixel is tested against; white: 200.
 inline Image work_picture(const Scene& scene, Step step) {
     Finder finder = make_finder(scene, step);
-    return heat_map(scene, 200, [&](const Ray& ray) {
+    Image numbers(scene.width, scene.height);
+    std::vector<Ray> rays = pixel_rays(scene, 1);
+    for (size_t i = 0; i < rays.size(); i++) {
         Work work;
-        find(finder, scene.geometry, ray, work);
-        return static_cast<float>(work.boxes + work.prims);
-    });
+        find(finder, scene.geometry, rays[i], work);
+        numbers.pixels[i].r = static_cast<float>(work.boxes + work.prims);
+    }
+    return heat_map(numbers, 200);
 }
 
 }  // namespace ch06

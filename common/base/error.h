@@ -1,11 +1,11 @@
 // What is thrown when the user's input is wrong, and where in a file it stands; main() prints
 // what() and exits.
 #pragma once
+#include <compare>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "common/base/text.h"
@@ -24,9 +24,7 @@ struct UsageError : std::runtime_error {
 
 /// Throws these lines, each of an InputError, as one; unless there are none.
 inline void throw_lines(const std::vector<std::string>& lines) {
-    std::string text;
-    for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-    if (!text.empty()) throw InputError(text);
+    if (!lines.empty()) throw InputError(listed(lines, "\n", "\n"));
 }
 
 /// What stands in an exercise where a function is left to the reader. It ends whatever needs the
@@ -40,9 +38,7 @@ inline void throw_lines(const std::vector<std::string>& lines) {
 struct Position {
     std::string file;
     int line = 0, column = 0;
-    bool operator<(const Position& other) const {
-        return std::tie(file, line, column) < std::tie(other.file, other.line, other.column);
-    }
+    std::strong_ordering operator<=>(const Position&) const = default;
 };
 
 /// A copy of the position that lasts as long as the program: what a scene is made of points to it.
@@ -76,12 +72,7 @@ inline std::string unknown(const std::string& kind, const std::string& word,
                            const std::vector<std::string>& known) {
     constexpr size_t few = 12;
     std::string text = "unknown " + kind + ' ' + quote(word), nearest = nearest_word(word, known);
-    for (const std::string& name : known) {
-        if (nearest.empty() && name.starts_with(word) && !word.empty()) nearest = name;
-    }
     if (!nearest.empty()) return text + ": did you mean " + quote(nearest) + '?';
     if (known.empty() || known.size() > few) return text;
-    std::string list;
-    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    return text + " (known: " + list + ')';
+    return text + " (known: " + listed(known) + ')';
 }

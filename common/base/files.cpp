@@ -18,8 +18,7 @@ namespace {
 constexpr const char* part_lock = ".part.lock";
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
-    throw InputError(
-        printable(path + ": error: " + what + ": " + std::strerror(error != 0 ? error : EIO)));
+    ::fail({path}, what + ": " + std::strerror(error != 0 ? error : EIO));
 }
 
 // A device or a pipe cannot be replaced, only written to. On Windows devices have such whole names.
@@ -76,8 +75,7 @@ FileLock lock_of(const std::string& path, const std::string& ending) {
     int lock = -1;
     for (int tries = 0; (lock = lock_file(name)) < 0; tries++) {
         if (errno != EWOULDBLOCK) fail(path, "cannot write", errno);
-        if (tries >= 50)
-            throw InputError(printable(path + ": error: another program is writing it"));
+        if (tries >= 50) fail({path}, "another program is writing it");
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return {nullptr, [=](void*) { unlock_file(lock, name); }};
@@ -110,8 +108,7 @@ void write_file_atomically(const std::string& path,
     if (why.empty()) fs::rename(part, target, error);
     if (error) why = error.message();
     if (why.empty()) return;
-    why += "; what was to be written is " + file_name(part);
-    throw InputError(printable(path + ": error: cannot write: " + why));
+    fail({path}, "cannot write: " + why + "; what was to be written is " + file_name(part));
 }
 void write_file_atomically(const std::string& path, std::string_view bytes) {
     write_file_atomically(path, [&](std::ostream& file) { file << bytes; });
@@ -122,7 +119,7 @@ void write_outputs(const std::vector<Output>& outputs) { throw_lines(errors_of(o
 void check_writable(const std::string& path) {
     if (is_device(path)) return;
     std::string why = why_not_replaced(after_links(path));
-    if (!why.empty()) throw InputError(printable(path + ": error: cannot write: " + why));
+    if (!why.empty()) fail({path}, "cannot write: " + why);
     lock_of(path, part_lock);  // can be made
 }
 
@@ -145,9 +142,7 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
         if (file_name(file_path(files[i])).starts_with("out/")) make_folder("out");
         for (const std::string& input : inputs) {
             if (!same_file(files[i], input)) continue;
-            std::string name = files[i] == input ? "" : " ('" + input + "')";
-            throw UsageError("error: '" + files[i] + "' is an input" + name +
-                             ", and would be overwritten");
+            throw UsageError("error: '" + files[i] + "' is an input, and would be overwritten");
         }
         for (size_t j = 0; j < i; j++) {
             if (!same_file(files[i], files[j])) continue;
@@ -173,6 +168,6 @@ std::string read_file(const std::string& path, size_t largest) {
         bytes.append(piece, 0, static_cast<size_t>(file.gcount()));
     }
     if (file.bad()) fail(path, "cannot read", errno);
-    if (bytes.size() > largest) throw InputError(path + ": error: larger than 1 GiB");
+    if (bytes.size() > largest) fail({path}, "larger than 1 GiB");
     return bytes;
 }

@@ -31,11 +31,8 @@ public:
         if (!lock || Clock::now() - last_ < pause_) return;
         last_ = Clock::now();
         share = std::clamp(share, 0.0, 1.0);
-        char numbers[100];
-        std::snprintf(numbers, sizeof numbers,
-                      std::isnan(seconds) ? " ... %2.0f %%" : " ... %2.0f %%, %.0f s left",
-                      100 * share, seconds / share - seconds);
-        std::string text = printable(what) + numbers;
+        std::string text = printable(what) + format(" ... %2.0f %%", 100 * share);
+        if (!std::isnan(seconds)) text += format(", %.0f s left", seconds / share - seconds);
         tell(is_terminal_ ? "\r" + text + "\033[K" : text + "\n");
         is_shown_ = is_terminal_;
     }

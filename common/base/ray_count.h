@@ -24,25 +24,22 @@ private:
     const std::function<bool()> ends_;
 };
 
-/// A number of rays, which each of them makes larger by 1. It counts down in between, since that is
-/// least work: the limit is looked at when it comes to 0.
+/// A number of rays, which each of them makes larger by 1; every 128th looks at the limit.
 class RayCount {
 public:
     void operator++(int) {
-        if (--left_ == 0) [[unlikely]]
+        if (++rays_ % 128 == 0) [[unlikely]]
             look();
     }
-    void add(uint64_t rays) { counted_ += rays; }
-    operator uint64_t() const { return counted_ - left_; }
+    void add(uint64_t rays) { rays_ += rays; }
+    operator uint64_t() const { return rays_; }
 
 private:
-    static constexpr uint64_t between_looks = 128;
-    [[gnu::noinline]] void look() {
-        counted_ += between_looks, left_ = between_looks;
+    [[gnu::noinline]] static void look() {
         if (TracingLimit::current && (*TracingLimit::current)()) throw TracingEnds();
     }
 
-    uint64_t counted_ = between_looks, left_ = between_looks;
+    uint64_t rays_ = 0;
 };
 
 /// Rays traced by this thread, for rays per second.

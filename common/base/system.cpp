@@ -14,11 +14,9 @@ std::string file_name(const fs::path& path) {
     return {name.begin(), name.end()};
 }
 
-static std::vector<void (*)(int)> handlers_before(stop_signals.size());
 static std::atomic<bool> are_caught = false;
 static std::atomic<int64_t> first_times[NSIG];  // ns, of the first signal of each kind; 0: none
-static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler must not touch it
-static_assert(std::atomic<int64_t>::is_always_lock_free);
+static_assert(std::atomic<int64_t>::is_always_lock_free);  // or a handler must not touch it
 
 /// Ends the program as the signal does where nobody handles it.
 static void end_by_signal(int signal);
@@ -37,17 +35,16 @@ static void request_stop(int signal) {
 
 void catch_stop_signals() {
     stop_requested = false;
-    for (int signal : stop_signals) first_times[signal] = 0;
-    for (size_t i = 0; i < stop_signals.size(); i++) {
-        handlers_before[i] = std::signal(stop_signals[i], request_stop);
-        if (handlers_before[i] == SIG_IGN) std::signal(stop_signals[i], SIG_IGN);
+    for (int signal : stop_signals) {
+        first_times[signal] = 0;
+        if (std::signal(signal, request_stop) == SIG_IGN) std::signal(signal, SIG_IGN);
     }
     are_caught = true;
 }
 void release_stop_signals() {
     are_caught = false;
-    for (size_t i = 0; i < stop_signals.size(); i++)
-        std::signal(stop_signals[i], handlers_before[i]);
+    for (int signal : stop_signals)
+        if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 #ifdef _WIN32

@@ -36,7 +36,7 @@ inline const std::vector<int> stop_signals = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, 
 /// Whether one of them has come since they were caught.
 inline std::atomic<bool> stop_requested = false;
 
-/// Lets them ask for a stop, except those that the program was started to ignore; and gives them
-/// back to who had them. One that comes again, at least half a second later, ends the program.
+/// Lets them ask for a stop, or end the program again; except those that it was started to ignore.
+/// One that comes again, at least half a second later, ends the program.
 void catch_stop_signals();
 void release_stop_signals();

@@ -52,9 +52,6 @@ inline std::string quote(std::string_view word, size_t longest = 60) {
     return '"' + std::string(word.substr(0, end)) + "...\"";
 }
 
-/// The name of a file in quotes. Only what is too long for one is cut: the end says which it is.
-inline std::string quote_file(const std::string& name) { return quote(name, 4096); }
-
 /// "a, b and c", where `last` is " and ".
 inline std::string listed(const std::vector<std::string>& words, const std::string& last = ", ",
                           const std::string& between = ", ") {

@@ -10,8 +10,6 @@
 namespace {
 
 constexpr int bins = 16;
-constexpr uint32_t small = lanes / 2;      // references of a block that is not parted
-constexpr float worth_parting = 0.67f;     // of a block's surface, that its parts have together
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr float worth_cutting = 1e-2f;     // of all surface, that one box wastes
@@ -152,8 +150,6 @@ struct Node {
     uint32_t number = 0;               // its BvhNode::child there
     // [k - 2]: of k places, so many go to the left child; 0: k - 1 places do as well.
     uint8_t share[lanes - 1] = {};
-
-    bool fits_a_block() const { return end - begin <= lanes; }
 };
 
 /// [k]: the cost of all below a node that may take up to k places of the wide node above.
@@ -161,7 +157,7 @@ using Costs = std::array<float, lanes + 1>;
 
 /// The cheapest way to make wide nodes of a binary tree.
 ///
-///   cost(node, 1) = area + (0 if it fits a block, else split(node, lanes))
+///   cost(node, 1) = area + split(node, lanes);  of a block: area, whatever k is
 ///   cost(node, k) = min(cost(node, k - 1), split(node, k))
 ///   split(node, k) = min over j of cost(left, j) + cost(right, k - j)
 ///
@@ -180,12 +176,11 @@ Costs share_places(Node& node, const Costs& left, const Costs& right) {
             }
         }
     }
-    bool one_block = node.fits_a_block();
-    cost[1] = node.box.area() + (one_block ? 0 : split[lanes]);
+    cost[1] = node.box.area() + split[lanes];
     for (size_t k = 2; k <= lanes; k++) {
         bool better = split[k] < cost[k - 1];
         cost[k] = better ? split[k] : cost[k - 1];
-        node.share[k - 2] = better || (k == lanes && !one_block) ? share[k] : 0;
+        node.share[k - 2] = better || k == lanes ? share[k] : 0;
     }
     return cost;
 }
@@ -195,6 +190,7 @@ struct Gathered {
     std::array<Node*, lanes> node;
     uint32_t size = 0;
 
+    Gathered(Node& root, uint32_t octant) { add(root, lanes, octant); }
     void add(Node& root, size_t places, uint32_t octant) {
         while (places > 1 && root.share[places - 2] == 0) places--;
         if (places == 1) {
@@ -223,18 +219,13 @@ public:
             build(root, all, 0);
             number(root);
         }
-        size_t nodes = wide_.size();
-        bvh_.nodes.resize(nodes);
+        bvh_.nodes.resize(wide_.size());
         bvh_.blocks.resize(leaves_.size());
-        in_chunks(nodes + leaves_.size(), [&](size_t begin, size_t end, int) {
-            for (size_t i = begin; i < end; i++) {
-                if (i < nodes) {
-                    fill_node(*wide_[i], bvh_.nodes[i]);
-                } else {
-                    auto [first, last] = leaves_[i - nodes];
-                    fill_block(first, last, bvh_.blocks[i - nodes]);
-                }
-            }
+        in_chunks(wide_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) fill_node(*wide_[i], bvh_.nodes[i]);
+        });
+        in_chunks(leaves_.size(), [&](size_t begin, size_t end, int) {
+            for (size_t i = begin; i < end; i++) fill_block(leaves_[i], bvh_.blocks[i]);
         });
         return std::move(bvh_);
     }
@@ -334,11 +325,9 @@ private:
         node.end = range.end;
         Costs one_block;
         one_block.fill(range.box.area());
-        if (range.size() <= small) return one_block;
+        if (range.size() <= lanes) return one_block;
         std::array<Range, 2> halves;
         node.axis = split(range, level < cost_levels, halves);
-        float parts = halves[0].box.area() + halves[1].box.area();
-        if (node.fits_a_block() && parts > worth_parting * range.box.area()) return one_block;
         node.children = std::make_unique<Node[]>(2);
         uint32_t smaller = std::min(halves[0].size(), halves[1].size());
         bool apart = smaller >= worth_a_thread && idle_threads_ > 0;
@@ -379,14 +368,13 @@ private:
     /// Numbers the wide nodes and the leaves below a node, depth first: all that one thread has to
     /// do alone before many can write them. Returns the BvhNode::child of the node.
     uint32_t number(Node& root) {
-        if (root.fits_a_block()) {
+        if (!root.children) {
             leaves_.push_back({root.begin, root.end});
             return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
         }
         auto index = static_cast<uint32_t>(wide_.size());
         wide_.push_back(&root);
-        Gathered children;
-        children.add(root, lanes, 7);
+        Gathered children(root, 7);
         for (uint32_t i = 0; i < children.size; i++) {
             children.node[i]->lane = static_cast<uint8_t>(i);
             children.node[i]->number = number(*children.node[i]);
@@ -396,8 +384,7 @@ private:
 
     /// Writes the boxes of the children, their numbers, and for each octant their order.
     void fill_node(Node& root, BvhNode& node) {
-        Gathered children;
-        children.add(root, lanes, 7);
+        Gathered children(root, 7);
         for (uint32_t i = 0; i < lanes; i++) {
             const Node* child = i < children.size ? children.node[i] : nullptr;
             NegatedBox box = child ? child->box : NegatedBox{};
@@ -408,8 +395,7 @@ private:
             node.child[i] = child ? child->number : BvhNode::nothing;
         }
         for (uint32_t octant = 0; octant < 8; octant++) {
-            Gathered sorted;
-            sorted.add(root, lanes, octant);
+            Gathered sorted(root, octant);
             LaneOrder order = 0;
             for (uint32_t i = 0; i < lanes; i++)
                 order |= LaneOrder{i < sorted.size ? sorted.node[i]->lane : i} << (4 * i);
@@ -431,7 +417,8 @@ private:
             leaves_.push_back({i, std::min(i + lanes, size)});
     }
 
-    void fill_block(uint32_t begin, uint32_t end, BvhBlock& block) {
+    void fill_block(std::pair<uint32_t, uint32_t> leaf, BvhBlock& block) {
+        auto [begin, end] = leaf;
         std::fill_n(&block.vertex[0][0], 9 * lanes, std::numeric_limits<float>::quiet_NaN());
         std::fill_n(block.prim, lanes, PrimHit::none);
         std::partition(refs_.begin() + begin, refs_.begin() + end,

@@ -49,10 +49,7 @@ struct Geometry {
 struct Box {
     Vec3 low = {infinity, infinity, infinity}, high = {-infinity, -infinity, -infinity};
 
-    void add(Vec3 p) {
-        low = min(low, p);
-        high = max(high, p);
-    }
+    void add(Vec3 p) { add(Box{p, p}); }
     void add(const Box& b) {
         low = min(low, b.low);
         high = max(high, b.high);

@@ -1,7 +1,7 @@
 // Uniformly distributed directions in a cone or a spherical triangle. Trigonometric functions are
 // computed in double: in float their last bit differs between libraries.
 #pragma once
-#include "common/geometry/transform.h"
+#include "common/base/vec.h"
 
 /// 1 - cos of a cone's half angle from sin^2, without cancellation for narrow cones.
 inline float one_minus_cos(float sin2) { return sin2 / (1 + std::sqrt(std::max(0.0f, 1 - sin2))); }
@@ -15,10 +15,6 @@ inline Vec3 sample_cone(float sin2, Vec2 u) {
     return from_cylindrical(r, u.y, 1 - h);
 }
 inline float pdf_cone(float sin2) { return 1 / (2 * pi * one_minus_cos(sin2)); }
-inline Vec2 invert_cone(float sin2, Vec3 w) {
-    float phi = std::atan2(w.y, w.x);
-    return {(1 - w.z) / one_minus_cos(sin2), (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
-}
 
 /// Solid angle of the triangle with corners in the unit directions a, b, c; in sr, up to 2 pi.
 ///
@@ -40,7 +36,7 @@ inline double triangle_solid_angle(Vec3d a, Vec3d b, Vec3d c) {
 ///
 /// pdf_w = 1 / omega. The corners must not lie on one great circle.
 /// source  Arvo 1995; c' from the spherical excess of two sides and the angle between them
-/// tested by  "density: directions in cones and triangles, and the way back to their numbers"
+/// tested by  "density: directions in cones and triangles"
 inline Vec3d sample_spherical_triangle(Vec3d a, Vec3d b, Vec3d c, double omega, Vec2 u) {
     // The corner c' on the edge from a to c that leaves the wanted solid angle:
     // tan(|ac'| / 2) = y / x, both sides of the formula above times |ab| |ac|.
@@ -57,13 +53,4 @@ inline Vec3d sample_spherical_triangle(Vec3d a, Vec3d b, Vec3d c, double omega, 
     double h = double{u.y} * dot(b_to_c, b_to_c) / 2, r2 = dot(from_b, from_b);
     if (r2 == 0) return b;
     return (1 - h) * b + std::sqrt(std::max(0.0, h * (2 - h)) / r2) * from_b;
-}
-inline double pdf_spherical_triangle(double omega) { return 1 / omega; }
-inline Vec2 invert_spherical_triangle(Vec3d a, Vec3d b, Vec3d c, double omega, Vec3d w) {
-    // The corner c' in which the arc from b through w ends.
-    Vec3d c_cut = normalize(cross(cross(b, w - b), cross(a, c - a)));
-    if (dot(c_cut, a + c) < 0) c_cut = -1 * c_cut;
-    double u1 = triangle_solid_angle(a, b, c_cut) / omega;
-    double u2 = dot(w - b, w - b) / dot(c_cut - b, c_cut - b);
-    return {static_cast<float>(u1), static_cast<float>(u2)};
 }

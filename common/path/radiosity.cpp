@@ -50,13 +50,10 @@ void refuse(const Scene& scene) {
         Rgb rho = m.reflectance;
         least = {std::min(least.r, rho.r), std::min(least.g, rho.g), std::min(least.b, rho.b)};
     }
-    const Geometry& g = scene.geometry;
-    auto refuse_round = [&](const auto& round) {
-        fail(scene.place(scene.shapes[round.shape].at),
+    uint32_t triangles = static_cast<uint32_t>(scene.geometry.triangles.size());
+    if (scene.geometry.size() > triangles)
+        fail(scene.place(shape_of(scene, triangles).at),
              "radiosity knows triangles alone; chapters from 05 on render spheres and disks");
-    };
-    if (!g.spheres.empty()) refuse_round(g.spheres[0]);
-    if (!g.disks.empty()) refuse_round(g.disks[0]);
     if (max_component(least) < 1) return;
     fail({scene.origin->file},
          "radiosity needs a surface that absorbs: in a closed room whose surfaces reflect all "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -17,11 +16,6 @@ constexpr size_t brightness = 3;
 double value(Rgb c, size_t channel) {
     const double values[] = {double{c.r}, double{c.g}, double{c.b}};
     return channel < brightness ? values[channel] : (values[0] + values[1] + values[2]) / 3;
-}
-
-bool is_grey(const Image& image) {
-    auto same = [](Rgb c) { return c.r == c.g && c.g == c.b; };
-    return std::all_of(image.pixels.begin(), image.pixels.end(), same);
 }
 
 /// The squared error of a pixel, averaged over its channels; in the order of the relative one.
@@ -101,8 +95,7 @@ double ChannelComparison::z() const {
 Comparison compare(const Image& a, const Image& b, double trim) {
     Comparison result;
     add_row(a, b, brightness, result);
-    bool are_grey = is_grey(a) && is_grey(b);
-    for (size_t channel = 0; channel < 3 && !are_grey; channel++) add_row(a, b, channel, result);
+    for (size_t channel = 0; channel < 3; channel++) add_row(a, b, channel, result);
     std::vector<PixelError> errors = errors_of(a, b);
     std::sort(errors.begin(), errors.end());
     size_t left_out = static_cast<size_t>(trim / 100 * static_cast<double>(errors.size()));
@@ -111,15 +104,12 @@ Comparison compare(const Image& a, const Image& b, double trim) {
         result.mse += e.squared / static_cast<double>(errors.size());
         result.rel_mse += e.relative / static_cast<double>(errors.size());
     }
-    result.rmse = std::sqrt(result.mse);
     return result;
 }
 
 void check_comparable(const Image& a, const std::string& name_a, const Image& b,
                       const std::string& name_b) {
-    auto size = [](const Image& image) {
-        return std::to_string(image.width) + "x" + std::to_string(image.height);
-    };
+    auto size = [](const Image& image) { return format("%dx%d", image.width, image.height); };
     if (size(a) != size(b))
         fail({name_b}, "has " + size(b) + " pixels, but " + name_a + " has " + size(a));
     for (const auto& [image, name] : {std::pair(&a, name_a), {&b, name_b}})
@@ -214,11 +204,10 @@ std::string verdict(const Comparison& c, const Picture& a, const Picture& b) {
         // estimates.
         if (row.beyond_5 > std::max(2, c.blocks / 200)) blocks = std::max(blocks, row.beyond_5);
     }
-    char z[40];
-    std::snprintf(z, sizeof z, " (%.3g standard errors)", most);
+    std::string z = format(" (%.3g standard errors)", most);
     if (!means.empty()) return "other means: A is " + means + " than B" + z;
     if (blocks > 0)
-        return "the same mean within the noise, but not everywhere: " + std::to_string(blocks) +
-               " of " + std::to_string(c.blocks) + " blocks differ by more than noise does";
-    return std::string("the same mean within the noise") + z;
+        z = format(", but not everywhere: %d of %d blocks differ by more than noise does", blocks,
+                   c.blocks);
+    return "the same mean within the noise" + z;
 }

@@ -21,9 +21,9 @@ struct ChannelComparison {
 /// Errors are means over pixels and channels. The standard errors come from the spread of a - b
 /// within blocks of 8 x 8 pixels, which needs pixels with independent noise.
 struct Comparison {
-    std::vector<ChannelComparison> rows;  // brightness; red, green, blue unless both are grey
+    std::vector<ChannelComparison> rows;  // brightness, red, green, blue
     int blocks = 0;
-    double mse = 0, rmse = 0;
+    double mse = 0;
     double rel_mse = 0;  // of (a-b)^2 / (b^2 + 0.01)
 };
 

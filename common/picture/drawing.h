@@ -107,15 +107,6 @@ inline Image heat_map(Image numbers, float most) {
     return numbers;
 }
 
-/// work(ray) of every pixel, as a heat map.
-template <class Work>
-Image heat_map(const Scene& scene, float most, const Work& work) {
-    Image image(scene.width, scene.height);
-    std::vector<Ray> rays = pixel_rays(scene, 1);
-    for (size_t i = 0; i < rays.size(); i++) image.pixels[i].r = work(rays[i]);
-    return heat_map(std::move(image), most);
-}
-
 using Triangles = std::vector<std::array<Vec3, 3>>;     // corners
 using CornerColours = std::vector<std::array<Rgb, 3>>;  // of each triangle, at its corners
 

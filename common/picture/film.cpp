@@ -4,7 +4,6 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
-#include "common/base/text.h"
 
 namespace {
 
@@ -269,10 +268,6 @@ uint64_t Film::samples() const {
 std::string text_of(const SampleRange& r) {
     const char* name = r.last - r.first > 1 ? "samples " : "sample ";
     return name + from_to(r.first, r.last - 1) + " of seed " + std::to_string(r.seed);
-}
-
-std::string SampleAt::text() const {
-    return std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(number);
 }
 
 void SampleCounts::add(const SampleCounts& other) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/base/hash.h"
+#include "common/base/text.h"
 #include "common/picture/image.h"
 
 /// The samples of one pixel so far: their number, the sum of each channel, and the sum of the
@@ -262,7 +263,7 @@ struct SampleAt {
     auto operator<=>(const SampleAt&) const = default;  // NOLINT(*-use-nullptr): version 14
 
     /// "X,Y,NUMBER", as --explain takes them.
-    std::string text() const;
+    std::string text() const { return format("%d,%d,%d", x, y, number); }
 };
 
 /// Counts besides the sums. Those of two sets of samples add up.

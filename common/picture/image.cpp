@@ -12,6 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files.h"
+#include "common/base/text.h"
 
 namespace {
 
@@ -197,13 +198,11 @@ std::string encode_ppm(const Image& image, const std::string& comment) {
     std::string bytes = "P6\n";
     std::istringstream lines(ascii(comment));
     for (std::string line; std::getline(lines, line);) bytes += "# " + line + '\n';
-    return bytes + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n" +
-           srgb_bytes(image);
+    return bytes + format("%d %d\n255\n", image.width, image.height) + srgb_bytes(image);
 }
 
 std::string encode_pfm(const Image& image) {
-    std::string bytes =
-        "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+    std::string bytes = format("PF\n%d %d\n-1.0\n", image.width, image.height);
     size_t row = static_cast<size_t>(image.width);
     for (size_t y = static_cast<size_t>(image.height); y-- > 0;) {
         bytes.append(reinterpret_cast<const char*>(&image.pixels[y * row]), row * sizeof(Rgb));

@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cinttypes>
-#include <cstdio>
 #include <filesystem>
 #include <mutex>
 

@@ -128,10 +128,8 @@ struct Outlines {
 template <class Is>
 Outlines outlines_of(const Scene& scene, const Is& is) {
     Outlines all;
-    auto shape_of = [](const auto& primitive) { return primitive.shape; };
     for (uint32_t i = 0; i < scene.geometry.size(); i++) {
-        uint32_t shape = visit(scene.geometry, i, shape_of, shape_of, shape_of);
-        if (!is(scene.materials[scene.shapes[shape].material])) continue;
+        if (!is(scene.materials[shape_of(scene, i).material])) continue;
         Emitter e = emitter_of(scene, i);
         float area = area_of(e) / 4;
         all.area += double{area};

@@ -178,12 +178,13 @@ void prepare(Scene& scene, int threads, const Report& report) {
     scene.bvh = std::make_shared<Bvh>(build_bvh(scene.geometry, threads));
 }
 
+const Shape& shape_of(const Scene& scene, uint32_t prim) {
+    auto number = [](const auto& primitive) { return primitive.shape; };
+    return scene.shapes[visit(scene.geometry, prim, number, number, number)];
+}
+
 std::vector<std::string> notes_of_coincident(const Scene& scene) {
     const Geometry& g = scene.geometry;
-    auto shape_of = [&](uint32_t prim) -> const Shape& {
-        auto number = [](const auto& primitive) { return primitive.shape; };
-        return scene.shapes[visit(g, prim, number, number, number)];
-    };
     std::vector<std::string> notes;
     constexpr uint64_t most = 30'000'000;
     uint64_t compared = 0;
@@ -195,7 +196,7 @@ std::vector<std::string> notes_of_coincident(const Scene& scene) {
             for (uint32_t b = 0; b < g.size() && notes.size() < 20; b++) {
                 Box there = box_of(g, b);
                 Vec3 gap = max(here.low - there.high, there.low - here.high);
-                const Shape& other = shape_of(b);
+                const Shape& other = shape_of(scene, b);
                 bool once = b < a || other.light < 0;  // each pair of lamps
                 if (!once || max_component(gap) > rounding) continue;
                 if (!coincide(emitter_of(scene, a), emitter_of(scene, b), double{rounding}))

@@ -33,7 +33,9 @@ struct Origin {
 /// `report` hears how far it is.
 void prepare(Scene& scene, int threads, const Report& report = {});
 
-/// Primitive number `prim` of the scene, as a part of a light.
+/// The shape that primitive number `prim` of the scene is a part of.
+const Shape& shape_of(const Scene& scene, uint32_t prim);
+/// The primitive, as a part of a light.
 Emitter emitter_of(const Scene& scene, uint32_t prim);
 /// m^2
 float area_of(const Emitter& e);

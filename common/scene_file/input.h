@@ -124,7 +124,7 @@ struct Input {
         } catch (const InputError& error) {
             // Name the place that asks for the file, before what is wrong with it.
             std::string text = error.what();
-            fail(at, quote_file(path) + text.substr(text.rfind(": error: ") + 7));
+            fail(at, quote(path, 4096) + text.substr(text.rfind(": error: ") + 7));
         }
         add_file(path, bytes);
         return bytes;

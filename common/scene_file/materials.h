@@ -37,7 +37,7 @@ inline std::optional<Image> read_picture(const Params& params, float gamma) {
         image = decode_image(path, input.read(path, name.at), gamma);
         for (Rgb r : image.pixels) {
             if (is_finite(r) && std::min({r.r, r.g, r.b}) >= 0) continue;
-            fail(name.at, quote_file(path) + " has a pixel that is negative or no number");
+            fail(name.at, quote(path, 4096) + " has a pixel that is negative or no number");
         }
     });
     if (!is_read) return {};

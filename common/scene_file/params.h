@@ -233,8 +233,8 @@ private:
             wrong = given + " has " + std::to_string(count) + " values, not " +
                     (row.values > 0 ? "" : "a multiple of ") + std::to_string(group);
         } else if (std::any_of(param.numbers.begin(), param.numbers.end(), is_outside)) {
-            wrong = quote(param.name) + " must be from " + digits(row.low, 10) + " to " +
-                    digits(row.high, 10);
+            wrong =
+                quote(param.name) + " must be from " + format("%.10g to %.10g", row.low, row.high);
         }
         if (!stand_in.empty()) {
             input_->stand_in(param.at, stand_in, wrong);

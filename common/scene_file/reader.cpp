@@ -360,10 +360,8 @@ private:
 
     // Gives each area light its range of primitives.
     void number_light_primitives() {
-        auto shape_of = [](const auto& primitive) { return primitive.shape; };
-        const Geometry& g = scene_.geometry;
-        for (uint32_t prim = 0; prim < g.size(); prim++) {
-            int index = scene_.shapes[visit(g, prim, shape_of, shape_of, shape_of)].light;
+        for (uint32_t prim = 0; prim < scene_.geometry.size(); prim++) {
+            int index = shape_of(scene_, prim).light;
             if (index < 0) continue;
             Light& light = scene_.lights[static_cast<size_t>(index)];
             if (light.prims++ == 0) light.first_prim = prim;

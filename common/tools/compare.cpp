@@ -15,7 +15,7 @@ static void print(const Comparison& c, double trim) {
                               std::to_string(row.beyond_5) + " of " + std::to_string(c.blocks)});
     std::printf("%s", aligned(table).c_str());
     if (trim > 0) std::printf("without the worst %g %% of the pixels:\n", trim);
-    std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, c.rmse, c.rel_mse);
+    std::printf("MSE %.4g   RMSE %.4g   relMSE %.4g\n", c.mse, std::sqrt(c.mse), c.rel_mse);
 }
 
 int main(int argc, char** argv) {

@@ -99,20 +99,13 @@ TEST_SUITE("light shapes") {
         CHECK(triangle_angle({1, 0, 0}, {2, 1, 0}, {1, 1, 0}) == 0);  // edge-on
     }
 
-    TEST_CASE("density: directions in cones and triangles, and the way back to their numbers") {
+    TEST_CASE("density: directions in cones and triangles") {
         using Triangle = std::array<Vec3d, 3>;
-        Sampler random = random_numbers(1);
-        auto check = [&](const auto& sample, const auto& invert, double pdf) {
+        auto check = [&](const auto& sample, double pdf) {
             CHECK(mismatches([&](Vec2 u) { return std::pair(Vec3d(sample(u)), pdf); }) == 0);
-            for (int i = 0; i < 1000; i++) {
-                Vec2 u = {0.01f + 0.98f * random.u1(), 0.01f + 0.98f * random.u1()};
-                Vec2 v = invert(sample(u));
-                CHECK(std::abs(v.x - u.x) + std::abs(v.y - u.y) < 1e-5f);
-            }
         };
         for (float sin2 : {0.25f, 0.9999f})
-            check([&](Vec2 u) { return sample_cone(sin2, u); },
-                  [&](Vec3 w) { return invert_cone(sin2, w); }, double{pdf_cone(sin2)});
+            check([&](Vec2 u) { return sample_cone(sin2, u); }, double{pdf_cone(sin2)});
         for (const auto& [a, b, c] :
              {Triangle{unit({1, 0, 0}), unit({0, 1, 0}), unit({0, 0, 1})},
               {unit({-1, -1, 2}), unit({1, -1, 1}), unit({0, 1, 2})},
@@ -121,10 +114,7 @@ TEST_SUITE("light shapes") {
             double omega = triangle_solid_angle(a, b, c);
             check([&, a = a, b = b,
                    c = c](Vec2 u) { return sample_spherical_triangle(a, b, c, omega, u); },
-                  [&, a = a, b = b, c = c](Vec3d w) {
-                      return invert_spherical_triangle(a, b, c, omega, w);
-                  },
-                  pdf_spherical_triangle(omega));
+                  1 / omega);
         }
     }
 

@@ -27,11 +27,7 @@ double angle_of(const Transform& r) {
 
 std::string as_text(const Transform& t) {
     std::string text;
-    char number[32];
-    auto put = [&](double x) {
-        std::snprintf(number, sizeof number, "%.17g ", x);
-        text += number;
-    };
+    auto put = [&](double x) { text += format("%.17g ", x); };
     for (Vec3d c : {t.x, t.y, t.z}) {
         for (double x : {c.x, c.y, c.z}) put(x);
         text += "0 ";

@@ -1,18 +1,14 @@
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "common/base/files.h"
+#include "common/base/text.h"
 #include "common/scene_file/reader.h"
 #include "tests/diagnose/judge.h"
 
 namespace {
 
-std::string number(double x) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g", std::abs(x) < 1e-6 ? 0 : x);
-    return text;
-}
+std::string number(double x) { return format("%.6g", std::abs(x) < 1e-6 ? 0 : x); }
 std::string triple(Vec3 v) {
     return number(double{v.x}) + " " + number(double{v.y}) + " " + number(double{v.z});
 }
@@ -79,12 +75,11 @@ SmallScene plain(const KnownScene& known) {
     const std::string &name = known.name, &text = known.text;
     Scene s = parse_scene(name, text, nullptr);
     SmallScene small = {.name = name, .width = s.width};
-    char film[600];
-    std::snprintf(film, sizeof film,
-                  "Film \"rgb\" \"integer xresolution\" %d \"integer yresolution\" %d "
-                  "\"string filename\" \"%s.exr\"\nPixelFilter \"box\"\nSampler \"independent\" "
-                  "\"integer pixelsamples\" 1024\nIntegrator \"path\" \"integer maxdepth\" %d\n",
-                  s.width, s.height, name.c_str(), s.max_depth);
+    std::string film = format(
+        "Film \"rgb\" \"integer xresolution\" %d \"integer yresolution\" %d "
+        "\"string filename\" \"%s.exr\"\nPixelFilter \"box\"\nSampler \"independent\" "
+        "\"integer pixelsamples\" 1024\nIntegrator \"path\" \"integer maxdepth\" %d\n",
+        s.width, s.height, name.c_str(), s.max_depth);
     size_t look_at = text.find("LookAt "), until = text.find("Camera", look_at);
     small.pbrt = "# " + known.what + "\n" + film + text.substr(look_at, until - look_at - 1) +
                  "\nCamera \"perspective\" \"float fov\" " + number(double{s.camera.fov}) +

@@ -142,9 +142,8 @@ void judge_scene(const std::string& scene, std::vector<Column>& columns, Table& 
 std::string cell(const Column& c) {
     double worst = 0;
     for (const auto& [kind, z] : c.worst) worst = std::max(worst, z);
-    char text[64];
-    std::snprintf(text, sizeof text, "%+.1f %4.1f", c.z_total, worst);
-    return std::isnan(c.z_total) ? "?" : text + std::string(c.relative_se > 0.01 ? "*" : " ");
+    if (std::isnan(c.z_total)) return "?";
+    return format("%+.1f %4.1f", c.z_total, worst) + (c.relative_se > 0.01 ? "*" : " ");
 }
 
 }  // namespace

@@ -119,9 +119,7 @@ void write_lines(const std::string& folder, const std::string& name, const std::
 }
 
 std::string short_number(double x) {
-    char text[64];
-    std::snprintf(text, sizeof text, std::abs(x) >= 100 && std::abs(x) < 1e7 ? "%.0f" : "%.3g", x);
-    return text;
+    return format(std::abs(x) >= 100 && std::abs(x) < 1e7 ? "%.0f" : "%.3g", x);
 }
 
 std::string markdown(const Table& table) {
