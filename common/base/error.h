@@ -72,6 +72,9 @@ inline std::string unknown(const std::string& kind, const std::string& word,
                            const std::vector<std::string>& known) {
     constexpr size_t few = 12;
     std::string text = "unknown " + kind + ' ' + quote(word), nearest = nearest_word(word, known);
+    for (const std::string& name : known) {
+        if (nearest.empty() && name.starts_with(word) && !word.empty()) nearest = name;
+    }
     if (!nearest.empty()) return text + ": did you mean " + quote(nearest) + '?';
     if (known.empty() || known.size() > few) return text;
     return text + " (known: " + listed(known) + ')';

@@ -140,14 +140,12 @@ void check_outputs(const std::vector<std::string>& files, const std::vector<std:
     std::vector<Output> checks;
     for (size_t i = 0; i < files.size(); i++) {
         if (file_name(file_path(files[i])).starts_with("out/")) make_folder("out");
-        for (const std::string& input : inputs) {
-            if (!same_file(files[i], input)) continue;
-            throw UsageError("error: '" + files[i] + "' is an input, and would be overwritten");
-        }
-        for (size_t j = 0; j < i; j++) {
-            if (!same_file(files[i], files[j])) continue;
-            throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
-        }
+        for (const std::string& input : inputs)
+            if (same_file(files[i], input))
+                throw UsageError("error: '" + files[i] + "' is an input, and would be overwritten");
+        for (size_t j = 0; j < i; j++)
+            if (same_file(files[i], files[j]))
+                throw UsageError("error: '" + files[j] + "' and '" + files[i] + "' are one file");
         checks.push_back({files[i], [&, i] { check_writable(files[i]); }});
     }
     std::vector<std::string> errors = errors_of(checks);

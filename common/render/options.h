@@ -157,7 +157,7 @@ struct TableOptions {
 /// InputError when an output cannot be written.
 TableOptions parse_table_options(int argc, char** argv, const std::string& name, uint64_t n);
 
-/// Results: aligned for people, tab-separated for programs.
+/// Results.
 struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
@@ -165,7 +165,6 @@ struct Table {
 
 /// One line per row, the columns aligned to the right (the first to the left).
 std::string aligned(const Table& table);
-std::string tab_separated(const Table& table);
 
 /// The slope of the straight line fitted to (log x, log y) by least squares: -1/2 if four times the
 /// samples halve the error. NaN for fewer than two points.

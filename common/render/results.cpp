@@ -186,8 +186,7 @@ int write_results(const Scene& scene, const RenderOptions& options, const Render
     return r.stats.interrupted ? 3 : 0;
 }
 
-/// A line for the names of the columns and for each row.
-static std::string lines_of(const Table& table, bool aligned) {
+std::string aligned(const Table& table) {
     std::vector<std::vector<std::string>> lines = table.rows;
     lines.insert(lines.begin(), table.columns);
     std::vector<size_t> widths(table.columns.size());
@@ -196,16 +195,14 @@ static std::string lines_of(const Table& table, bool aligned) {
     std::string text;
     for (const auto& cells : lines) {
         for (size_t c = 0; c < cells.size(); c++) {
-            std::string space(aligned ? widths[c] - cells[c].size() : 0, ' ');
-            text += c == 0 ? cells[c] + space : (aligned ? "  " : "\t") + space + cells[c];
+            std::string space(widths[c] - cells[c].size(), ' ');
+            text += c == 0 ? cells[c] + space : "  " + space + cells[c];
         }
         text.erase(text.find_last_not_of(' ') + 1);
         text += '\n';
     }
     return text;
 }
-std::string aligned(const Table& table) { return lines_of(table, true); }
-std::string tab_separated(const Table& table) { return lines_of(table, false); }
 
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
     double n = static_cast<double>(x.size()), u = 0, v = 0, uv = 0, uu = 0;

@@ -132,7 +132,7 @@ public:
             refuse_old(at_, type_);
             std::vector<std::string> known = names_of(types);
             std::erase_if(known, [&](const std::string& type) {
-                return !or_stand_in(directive_ + ' ' + quote(type)).empty();
+                return type.empty() || !or_stand_in(directive_ + ' ' + quote(type)).empty();
             });
             fail(at_, unknown(directive_, type_, known));
         }

@@ -42,12 +42,12 @@ struct World {
     /// A checkered ball or disk.
     std::string checkered(int number) {
         std::string shape = dice.chance(0.5) ? ball(1) : "Shape \"disk\"\n";
-        std::string size = scale(dice.power(0.1, 1)), where = place(0.1, 1.5);
+        std::string shrunk = scale(dice.power(0.1, 1)), where = place(0.1, 1.5);
         std::string color2 = dice.rgb(0, 0.9), color1 = dice.rgb(0, 0.9);
         return format("Texture \"%d\" \"spectrum\" \"checkerboard\" ", number) +
                "\"float uscale\" 6 \"float vscale\" 4 \"rgb tex1\" " + color1 + " \"rgb tex2\" " +
                color2 + format(" Material \"diffuse\" \"texture reflectance\" \"%d\" ", number) +
-               where + size + shape;
+               where + shrunk + shape;
     }
     std::string roughness() {
         if (chapter < 13 || dice.chance(0.3)) return "";

@@ -92,6 +92,12 @@ int samples_in(double seconds, const NamedMethod& method, Scene& scene,
     return std::max(1, static_cast<int>(trial * seconds / took));
 }
 
+std::string tab_separated(const Table& table) {
+    std::string text = listed(table.columns, "\t", "\t") + '\n';
+    for (const auto& cells : table.rows) text += listed(cells, "\t", "\t") + '\n';
+    return text;
+}
+
 void write_table(const std::string& folder, const std::string& name, const Table& table) {
     std::filesystem::create_directories(folder);
     std::string file = folder + "/" + name + ".tsv";

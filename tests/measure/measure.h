@@ -63,6 +63,7 @@ void write_lines(const std::string& folder, const std::string& name, const std::
 
 /// The table in Markdown, its columns aligned so that it reads as plain text too.
 std::string markdown(const Table& table);
+std::string tab_separated(const Table& table);
 
 /// The scenes of scenes/, as paths; and those with the ones of tests/pictures/references/.
 std::vector<std::string> own_scenes();
