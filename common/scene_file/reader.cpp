@@ -302,8 +302,7 @@ private:
         }
         read_shape(params, where, scene_);
         const Geometry& g = scene_.geometry;
-        check_limit(params.at(), g.size(), input_.limits.primitives,
-                    "triangles, spheres and disks");
+        check_limit(params.at(), g.size(), input_.limits.primitives, "primitives");
         check_limit(params.at(), g.positions.size(), input_.limits.vertices, "vertices");
         if (!mover) return;
         std::swap(scene_.geometry, mover->geometry);

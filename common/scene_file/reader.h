@@ -12,7 +12,7 @@
 /// built.
 struct Limits {
     uint64_t directives = 10'000'000;
-    uint64_t primitives = uint64_t{1} << 25;  // triangles, spheres and disks
+    uint64_t primitives = uint64_t{1} << 25;
     uint64_t vertices = uint64_t{1} << 26;
 };
 

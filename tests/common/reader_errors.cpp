@@ -171,7 +171,7 @@ TEST_SUITE("reader: malformed input") {
             Limits limits;
             std::string begin, one_more, place, message;
         } cases[] = {
-            {primitives, sphere + sphere + disk, sphere, "5:1", "3 triangles, spheres and disks"},
+            {primitives, sphere + sphere + disk, sphere, "5:1", "3 primitives"},
             {vertices, sphere, triangles, "3:1", "more than 3 vertices"},
             {directives, identity + sphere, identity, "3:1", "more than 5 directives"},
             {{},
