@@ -96,7 +96,7 @@ inline void choose_candidates(const Lights& lights, const Hit& x, Vec3 wo, doubl
 ///
 /// mean w / 9: a defensive share of 10 %, since targets ignore walls. One or two lights: 1.
 inline void compute_inclusions(const Scene& scene, const Lights& lights, Candidates& c) {
-    std::fill_n(c.inclusion, c.size, 1.0f);
+    c.inclusion[0] = c.inclusion[1] = 1;
     if (c.size <= 2) return;
 
     // Weight each by its target.
