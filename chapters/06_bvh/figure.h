@@ -6,6 +6,16 @@
 
 namespace ch06 {
 
+/// The rays through every stride-th pixel.
+inline std::vector<Ray> pixel_rays(const Scene& scene, size_t stride) {
+    CameraView view = camera_view(scene.camera, scene.width, scene.height);
+    std::vector<Ray> rays;
+    size_t pixels = static_cast<size_t>(scene.width) * static_cast<size_t>(scene.height);
+    for (size_t i = 0; i < pixels; i += stride)
+        rays.push_back(pixel_ray(scene, view, static_cast<int>(i)));
+    return rays;
+}
+
 /// Builds what the step needs and traces the rays, for a tenth of a second or longer.
 inline std::vector<std::string> measure(const Scene& scene, Step step,
                                         const std::vector<Ray>& rays) {

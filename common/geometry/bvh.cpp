@@ -245,7 +245,7 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
             } else if ((hits & (hits - 1)) == 0) {
                 current = node.child[std::countr_zero(hits)];
             } else if (any) {
-                // Any hit will do: no order but that of the lanes.
+                // Any hit will do: the last of the lanes first, as the builder orders them.
                 store(compress(load(node.child), hits), stack + size);
                 size += std::popcount(hits) - 1;
                 current = node.child[31 - std::countl_zero(hits)];

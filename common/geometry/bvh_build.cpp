@@ -10,6 +10,8 @@
 namespace {
 
 constexpr int bins = 16;
+constexpr uint32_t small = lanes / 2;      // references of a block that is not parted
+constexpr float worth_parting = 0.67f;     // of a block's surface, that its parts have together
 constexpr uint32_t few = 48;               // references for which boxes cost more than they save
 constexpr uint32_t worth_a_thread = 512;   // references of a subtree
 constexpr float worth_cutting = 1e-2f;     // of all surface, that one box wastes
@@ -150,6 +152,8 @@ struct Node {
     uint32_t number = 0;               // its BvhNode::child there
     // [k - 2]: of k places, so many go to the left child; 0: k - 1 places do as well.
     uint8_t share[lanes - 1] = {};
+
+    bool fits_a_block() const { return end - begin <= lanes; }
 };
 
 /// [k]: the cost of all below a node that may take up to k places of the wide node above.
@@ -157,7 +161,7 @@ using Costs = std::array<float, lanes + 1>;
 
 /// The cheapest way to make wide nodes of a binary tree.
 ///
-///   cost(node, 1) = area + split(node, lanes);  of a block: area, whatever k is
+///   cost(node, 1) = area + (0 if it fits a block, else split(node, lanes))
 ///   cost(node, k) = min(cost(node, k - 1), split(node, k))
 ///   split(node, k) = min over j of cost(left, j) + cost(right, k - j)
 ///
@@ -176,11 +180,12 @@ Costs share_places(Node& node, const Costs& left, const Costs& right) {
             }
         }
     }
-    cost[1] = node.box.area() + split[lanes];
+    bool one_block = node.fits_a_block();
+    cost[1] = node.box.area() + (one_block ? 0 : split[lanes]);
     for (size_t k = 2; k <= lanes; k++) {
         bool better = split[k] < cost[k - 1];
         cost[k] = better ? split[k] : cost[k - 1];
-        node.share[k - 2] = better || k == lanes ? share[k] : 0;
+        node.share[k - 2] = better || (k == lanes && !one_block) ? share[k] : 0;
     }
     return cost;
 }
@@ -325,9 +330,11 @@ private:
         node.end = range.end;
         Costs one_block;
         one_block.fill(range.box.area());
-        if (range.size() <= lanes) return one_block;
+        if (range.size() <= small) return one_block;
         std::array<Range, 2> halves;
         node.axis = split(range, level < cost_levels, halves);
+        float parts = halves[0].box.area() + halves[1].box.area();
+        if (node.fits_a_block() && parts > worth_parting * range.box.area()) return one_block;
         node.children = std::make_unique<Node[]>(2);
         uint32_t smaller = std::min(halves[0].size(), halves[1].size());
         bool apart = smaller >= worth_a_thread && idle_threads_ > 0;
@@ -366,15 +373,19 @@ private:
     }
 
     /// Numbers the wide nodes and the leaves below a node, depth first: all that one thread has to
-    /// do alone before many can write them. Returns the BvhNode::child of the node.
+    /// do alone before many can write them. Returns the BvhNode::child of the node. Of its lanes,
+    /// the last are those that are likeliest to stop a ray: large ones that hold little.
     uint32_t number(Node& root) {
-        if (!root.children) {
+        if (root.fits_a_block()) {
             leaves_.push_back({root.begin, root.end});
             return BvhNode::leaf | static_cast<uint32_t>(leaves_.size() - 1);
         }
         auto index = static_cast<uint32_t>(wide_.size());
         wide_.push_back(&root);
         Gathered children(root, 7);
+        auto worth = [](const Node* n) { return n->box.area() / std::sqrt(n->end - n->begin); };
+        std::stable_sort(children.node.begin(), children.node.begin() + children.size,
+                         [&](Node* a, Node* b) { return worth(a) < worth(b); });
         for (uint32_t i = 0; i < children.size; i++) {
             children.node[i]->lane = static_cast<uint8_t>(i);
             children.node[i]->number = number(*children.node[i]);
@@ -388,11 +399,12 @@ private:
         for (uint32_t i = 0; i < lanes; i++) {
             const Node* child = i < children.size ? children.node[i] : nullptr;
             NegatedBox box = child ? child->box : NegatedBox{};
+            uint32_t lane = child ? child->lane : i;
             for (int axis = 0; axis < 3; axis++) {
-                node.plane[2 * axis][i] = -box.neg_lo[axis];
-                node.plane[2 * axis + 1][i] = box.hi[axis];
+                node.plane[2 * axis][lane] = -box.neg_lo[axis];
+                node.plane[2 * axis + 1][lane] = box.hi[axis];
             }
-            node.child[i] = child ? child->number : BvhNode::nothing;
+            node.child[lane] = child ? child->number : BvhNode::nothing;
         }
         for (uint32_t octant = 0; octant < 8; octant++) {
             Gathered sorted(root, octant);

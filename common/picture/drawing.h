@@ -86,16 +86,6 @@ inline Ray pixel_ray(const Scene& scene, const CameraView& view, int i) {
                              static_cast<float>(i / scene.width) + 0.5f});
 }
 
-/// The rays through every stride-th pixel.
-inline std::vector<Ray> pixel_rays(const Scene& scene, size_t stride) {
-    CameraView view = camera_view(scene.camera, scene.width, scene.height);
-    std::vector<Ray> rays;
-    size_t pixels = static_cast<size_t>(scene.width) * static_cast<size_t>(scene.height);
-    for (size_t i = 0; i < pixels; i += stride)
-        rays.push_back(pixel_ray(scene, view, static_cast<int>(i)));
-    return rays;
-}
-
 /// The numbers in the red channel as colours, from black (none) by blue, green and red to white
 /// (`most` or more).
 inline Image heat_map(Image numbers, float most) {

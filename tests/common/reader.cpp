@@ -357,7 +357,7 @@ TEST_SUITE("reader") {
         Limits limits;
         limits.primitives = 4;
         CHECK_THROWS_WITH(read_world(object + twice, nullptr, limits),
-                          doctest::Contains("more than 4 triangles"));
+                          doctest::Contains("more than 4 primitives"));
     }
 
     TEST_CASE("files: an included file continues where its Include stands") {
