@@ -211,12 +211,12 @@ inline Radiosity ambient(const std::vector<Patch>& patch, const Solution& s,
     Radiosity unshot, rho, shot, all;
     for (size_t i = 0; i < s.unshot.size(); i++) {
         double A = double{patch[i].area};
-        all += Radiosity(A, A, A);
+        all += Radiosity{A, A, A};
         unshot += A * s.unshot[i];
         rho += A * Radiosity(patch[i].rho);
         shot += A * (radiosity_of(patch[i], s.H[i]) - s.unshot[i]);
     }
-    Radiosity keep = Radiosity(1, 1, 1) - ratio(s.escaped, shot);
+    Radiosity keep = Radiosity{1, 1, 1} - ratio(s.escaped, shot);
     return ratio(keep * unshot, all - min(keep * rho, most * all));
 }
 

@@ -80,7 +80,7 @@ inline Rgb blackbody_rgb(double kelvin) {
         double exponent = c2 / (nm * 1e-9 * kelvin), reference = c2 / (560e-9 * kelvin);
         double B = std::pow(560 / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) /
                    std::expm1(-exponent);
-        sum = sum + B * Vec3d(x, y, z);
+        sum = sum + B * Vec3d{x, y, z};
         nm += observer_step_nm;
     }
 
