@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
                            "only one, without weight: S vertices from the light, T the eye",
                            [&](const std::string& text) {
                                std::vector<int> ends = split_numbers(text, ',');
-                               if (ends.size() != 2)
+                               if (ends.size() != 2 || ends[1] < 1 || ends[0] + ends[1] < 2)
                                    fail_value("strategy", text, "S,T, such as 2,2");
                                alone = ch21::strategy_name(ends[0], ends[1]);
                            },
