@@ -10,6 +10,7 @@ help help-all:
 # What reads, prints and explains runs for less time than it takes to compile it by -O3.
 briefly       = $(if $(filter -O3,$(OPT)),-O1)
 brief_folders := picture render scene_file
+thorough      := check measure methods
 brief_common  := $(filter $(foreach f,$(brief_folders),$(BUILD)/obj/common/$f/%),$(filter-out %/film.o %/render/render.o,$(common)))
 link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 
@@ -17,7 +18,7 @@ link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 ifneq ($(findstring Free Software,$(shell $(CXX) --version)),)
 CXXFLAGS += --param=ggc-min-heapsize=1000000
 
-# g++ compiles the standard library's headers once: what begins with them then compiles in three quarters of the
+# g++ compiles the standard headers that most files include once: what begins with them then compiles in three quarters of the
 # time. Each file still includes what it uses, as other compilers need it. With such a file, g++ 12 warns of arrays
 # and copies in std::string by mistake. ccache needs to be told that it may be used. The file itself is not from
 # ccache: g++ knows the headers in it by the times of their files. PRECOMPILED(HEADER): the flags that use it.
@@ -27,14 +28,17 @@ CCACHE_SLOPPINESS ?= pch_defines,time_macros
 export CCACHE_SLOPPINESS
 $(BUILD)/obj/%.h.gch: $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "$(counted)compile $(@F)"
-	@printf '#include <bits/stdc++.h>\n#ifdef __AVX2__\n#include <immintrin.h>\n#endif\n' >$(basename $@)
+	@printf '#include <%s>\n' $(headers) >$(basename $@)
 	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -x c++-header $(basename $@) -o $@
-standard := $(filter-out $(brief_common),$(common)) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp tests/check/*.cpp tests/measure/*.cpp tests/methods/*.cpp))
+headers := algorithm array atomic bit chrono cmath cstdint cstdio cstring filesystem fstream functional limits map memory \
+    numeric optional set span sstream string utility vector
+objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard $(1)))
+standard := $(filter-out $(brief_common),$(common)) $(call objects_of,chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp $(thorough:%=tests/%/*.cpp))
 $(standard): own_flags += $(call precompiled,standard.h)
 $(standard): $(BUILD)/obj/standard.h.gch
 $(BUILD)/obj/standard.h.gch: own_flags =
 # One of its own, since what is precompiled by -O3 makes g++ compile the rest by -O3, too.
-brief_standard := $(brief_common) $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/known/*.cpp tests/diagnose/*.cpp tests/diagnose/*/*.cpp))
+brief_standard := $(brief_common) $(filter-out $(standard) %/fuzz_reader.o,$(call objects_of,tests/*/*.cpp tests/diagnose/*/*.cpp))
 $(brief_standard): own_flags += $(call precompiled,brief/standard.h)
 $(brief_standard): $(BUILD)/obj/brief/standard.h.gch
 $(BUILD)/obj/brief/standard.h.gch: own_flags = $(briefly)

@@ -8,14 +8,6 @@ $(BUILD)/obj/tests/known/%.o $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCT
 brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
 $(brief): own_flags += $(briefly) -Dflatten=
 
-# Most tests include the same headers: see common/rules.mk.
-ifdef precompiled
-advance := $(filter-out %/main.o,$(brief))
-$(advance): own_flags += $(call precompiled,tests/support/included.h)
-$(advance): $(BUILD)/obj/tests/support/included.h.gch
-$(BUILD)/obj/tests/support/included.h.gch: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly) -Dflatten=
-endif
-
 # The book, tried out in headless browsers.
 #: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
 test-book: book programs
@@ -30,21 +22,15 @@ exercise:
 comparing := $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tests/check/*.cpp tests/known/*.cpp) \
              tests/methods/table.cpp tests/measure/measure.cpp)
 checkers  := $(comparing) $(support)
-# What the tests of chapters from 07 on begin with, compiled in advance, with the flags that tests/check/check compiles with. g++
-# takes a header for the one in here only if its time is the same: not that of another folder, from ccache.
-$(BUILD)/check/support.h: tests/rules.mk $(BUILD)/flags
-	@mkdir -p $(@D); printf '#include %s\n' '<doctest/doctest.h>' '"tests/support/gates.h"' '"tests/support/scenes.h"' >$@
-$(BUILD)/check/support.h.gch: $(BUILD)/check/support.h $(common)
-	@echo "$(counted)compile $<"; CCACHE_DISABLE=1 $(CXX) $(filter-out -O%,$(CXXFLAGS)) -w -O1 -Dflatten= -MMD -MP -MF $(BUILD)/obj/check_support.d \
-	    -x c++-header $< -o $@
-checkers: $(checkers) $(common) $(BUILD)/check/support.h.gch
-# What the chapter's own file renders of random scenes.
-$(BUILD)/check/worlds_%: $(BUILD)/obj/tests/methods/%.o $(comparing) $(common)
-	@mkdir -p $(@D); $(CXX) $(CXXFLAGS) $(filter %.o,$^) -o $@.program $(LIBS) && echo "render random scenes"
-	@$(RUN) $@.program $* write --worlds $@
+checkers: $(checkers) $(common)
+# What the chapter's own file renders of random scenes: make check starts the program itself.
+$(BUILD)/check/worlds_%: $(BUILD)/check/worlds_%.program
+	@$(RUN) $< $* write --worlds $@
+$(BUILD)/check/worlds_%.program: $(BUILD)/obj/tests/methods/%.o $(comparing) $(common)
+	@mkdir -p $(@D); $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 # Chapters without paths of light are checked beside the chapter's own picture, others beside its random scenes.
 #: teaching: make check CH=09      is it right? what is off, and where (NAME=1: in which function; MINE=FILE, LIMIT=30)
-check: checkers $(made) $(if $(wildcard tests/methods/$(CH).cpp),$(BUILD)/check/worlds_$(CH), \
+check: checkers $(made) $(if $(wildcard tests/methods/$(CH).cpp),$(BUILD)/check/worlds_$(CH).program, \
     $(filter $(BUILD)/$(CH)_%,$(chapters:%=$(BUILD)/%)))
 	@tests/check/check $(BUILD) '$(CH)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: teaching: make mine CH=09       run your own file as a program: out/mine/09_light_sampling.ppm (ARGS='--spp 64')

@@ -274,10 +274,10 @@ PrimHit traverse(const Bvh& bvh, const Geometry& g, const Ray& ray) {
 
 }  // namespace
 
-PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
+[[gnu::flatten]] PrimHit closest_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
     return traverse<false>(bvh, geometry, ray);
 }
 
-bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
+[[gnu::flatten]] bool any_hit(const Bvh& bvh, const Geometry& geometry, const Ray& ray) {
     return traverse<true>(bvh, geometry, ray).prim != PrimHit::none;
 }

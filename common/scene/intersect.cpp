@@ -106,15 +106,17 @@ void carry_on(const Transform& t, Hit& x) {
 Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
     if (g.normals.empty() || prim >= g.triangles.size()) return {};
     const auto& v = g.triangles[prim].v;
+    Vec3 n0 = g.normals[v[0]], n1 = g.normals[v[1]], n2 = g.normals[v[2]];
+    if (n0 == Vec3{} && n1 == n0 && n2 == n0) return {};
     Vec3 p0 = g.positions[v[0]], e1 = g.positions[v[1]] - p0, e2 = g.positions[v[2]] - p0;
     Vec3 area = cross(e1, e2);
     float b1 = dot(cross(p - p0, e2), area) / dot(area, area);
     float b2 = dot(cross(e1, p - p0), area) / dot(area, area);
-    return (1 - b1 - b2) * g.normals[v[0]] + b1 * g.normals[v[1]] + b2 * g.normals[v[2]];
+    return (1 - b1 - b2) * n0 + b1 * n1 + b2 * n2;
 }
 
-/// Replaces x by what the ray meets first among the movers, where that is nearer, at its time.
-[[gnu::noinline]] void intersect_movers(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
+/// intersect() with movers, or where rays are kept: x becomes what is met first at the ray's time.
+[[gnu::noinline]] void intersect_more(const Scene& scene, const Ray& ray, std::optional<Hit>& x) {
     Ray rest = ray;
     if (x) rest.t_max = x->t;
     for (const auto& mover : scene.movers) {
@@ -132,16 +134,19 @@ Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
         found.prim += mover->first_prim;
         finish_hit(scene, shape, rest, found, *x);
     }
+    if (rays_kept) rays_kept->push_back({ray, false, x.has_value(), x ? x->t : infinity});
 }
 
-[[gnu::noinline]] bool occluded_by_movers(const Scene& scene, const Ray& ray) {
+/// occluded() with movers, or where rays are kept.
+[[gnu::noinline]] bool occluded_more(const Scene& scene, const Ray& ray) {
+    bool met = any_hit(*scene.bvh, scene.geometry, ray);
     for (const auto& mover : scene.movers) {
-        if (!meets(ray, mover->box.low, mover->box.high)) continue;
+        if (met || !meets(ray, mover->box.low, mover->box.high)) continue;
         Transform world_from_start = mover->world_from_start(static_cast<double>(ray.time));
-        if (any_hit(*mover->bvh, mover->geometry, carried_back(*mover, ray, world_from_start)))
-            return true;
+        met = any_hit(*mover->bvh, mover->geometry, carried_back(*mover, ray, world_from_start));
     }
-    return false;
+    if (rays_kept) rays_kept->push_back({ray, true, met, NAN});
+    return met;
 }
 
 }  // namespace
@@ -157,34 +162,29 @@ void make_hit(const Scene& scene, const Ray& ray, const PrimHit& found, Hit& x) 
     PrimHit found = closest_hit(*scene.bvh, scene.geometry, ray);
     std::optional<Hit> x;
     if (found.prim != PrimHit::none) make_hit(scene, ray, found, x.emplace());
-    if (scene.moves) [[unlikely]]
-        intersect_movers(scene, ray, x);
-    if (rays_kept) [[unlikely]]
-        rays_kept->push_back({ray, false, x.has_value(), x ? x->t : infinity});
+    if (scene.moves || rays_kept) [[unlikely]]
+        intersect_more(scene, ray, x);
     return x;
 }
 
 bool occluded(const Scene& scene, const Ray& ray) {
     rays_traced++;
-    bool met =
-        any_hit(*scene.bvh, scene.geometry, ray) || (scene.moves && occluded_by_movers(scene, ray));
-    if (rays_kept) [[unlikely]]
-        rays_kept->push_back({ray, true, met, NAN});
-    return met;
+    bool more = scene.moves || rays_kept;
+    return more ? occluded_more(scene, ray) : any_hit(*scene.bvh, scene.geometry, ray);
 }
 
 Vec3 mesh_normal(const Scene& scene, const Hit& x) {
     const Mover* mover = nullptr;
-    for (const auto& each : scene.movers) {
+    for (const auto& each : scene.movers)
         if (x.prim >= each->first_prim) mover = each.get();
+    Vec3 n;
+    if (!mover) n = interpolated_normal(scene.geometry, x.prim, x.p);
+    if (mover) {
+        Transform t = mover->world_from_start(static_cast<double>(x.time));
+        Vec3 back = to_vec3(transform_point(inverse(t), Vec3d(x.p)));
+        uint32_t prim = x.prim - mover->first_prim;
+        n = to_vec3(transform_normal(t, Vec3d(interpolated_normal(mover->geometry, prim, back))));
     }
-    const Geometry& g = mover ? mover->geometry : scene.geometry;
-    uint32_t prim = mover ? x.prim - mover->first_prim : x.prim;
-    Transform world_from_start;
-    if (mover) world_from_start = mover->world_from_start(static_cast<double>(x.time));
-    Vec3 back = to_vec3(transform_point(inverse(world_from_start), Vec3d(x.p)));
-    Vec3d smooth(interpolated_normal(g, prim, back));
-    Vec3 n = to_vec3(transform_normal(world_from_start, smooth));
     if (!(dot(n, n) > 0)) return x.ng;
     n = normalize(n);
     return dot(n, x.ng) < 0 ? -n : n;

@@ -3,9 +3,11 @@
 // file rendered of them.
 // compare_scenes NN write: renders these, and writes FILE.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <set>
+#include <thread>
 
 #include "common/base/error.h"
 #include "common/base/files.h"
@@ -112,6 +114,39 @@ struct Findings {
     bool black = true;  // no class brings anything
 };
 
+/// Whether a is off more surely than b.
+bool is_surer(const Off& a, const Off& b) {
+    auto distance = [](const Off& o) {
+        double z = std::abs(o.ratio.mean - 1) / std::max(o.ratio.se, 1e-3);
+        return o.leaks ? 0 : std::isfinite(z) ? z : 1e9;
+    };
+    return distance(a) > distance(b);
+}
+
+/// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
+std::string worst_of(const Findings& found) {
+    const Off& o = *std::min_element(found.off.begin(), found.off.end(), is_surer);
+    std::string factor = name_factor(o.ratio);
+    std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.what + " is ";
+    if (o.leaks) return what + "there, and should not be";
+    if (!std::isfinite(o.ratio.mean)) return what + found.bad.says;
+    return what + short_number(o.ratio.mean) +
+           (factor.empty() || factor == short_number(o.ratio.mean) ? "" : " (" + factor + ")") +
+           (o.ratio.mean > 1.5 ? " times what it should be" : " of what it should be");
+}
+
+/// For who waits: the check says it at once.
+void say_first(const Findings& found) {
+    std::printf("off     %s\n", worst_of(found).c_str());
+    std::fflush(stdout);
+}
+
+/// The same, of what is right.
+void say_so_far(size_t right, size_t all, const char* what) {
+    std::printf("so far: %zu of %zu %s pictures\n", right, all, what);
+    std::fflush(stdout);
+}
+
 void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOptions& o,
              Findings& findings) {
     constexpr int times_blurred = 40, times = 3;  // as many samples as the scene says
@@ -145,28 +180,9 @@ void compare(const KnownScene& scene, const NamedMethod& method, const MeasureOp
             return !is_off(again[found.name], expected[found.name], least);
         });
     }
+    bool is_first = findings.off.empty() && !off.empty();
     findings.off.insert(findings.off.end(), off.begin(), off.end());
-}
-
-/// Whether a is off more surely than b.
-bool is_surer(const Off& a, const Off& b) {
-    auto distance = [](const Off& o) {
-        double z = std::abs(o.ratio.mean - 1) / std::max(o.ratio.se, 1e-3);
-        return o.leaks ? 0 : std::isfinite(z) ? z : 1e9;
-    };
-    return distance(a) > distance(b);
-}
-
-/// "LDE in a floor under a lamp is 0.318 (1/pi) of what it should be": of what is off most surely.
-std::string worst_of(const Findings& found) {
-    const Off& o = *std::min_element(found.off.begin(), found.off.end(), is_surer);
-    std::string factor = name_factor(o.ratio);
-    std::string what = (o.name == "all" ? "the light" : o.name) + " in " + o.what + " is ";
-    if (o.leaks) return what + "there, and should not be";
-    if (!std::isfinite(o.ratio.mean)) return what + found.bad.says;
-    return what + short_number(o.ratio.mean) +
-           (factor.empty() || factor == short_number(o.ratio.mean) ? "" : " (" + factor + ")") +
-           (o.ratio.mean > 1.5 ? " times what it should be" : " of what it should be");
+    if (is_first && !findings.black) say_first(findings);
 }
 
 /// folder    where the scene of a path that is not a number is written
@@ -175,10 +191,17 @@ Findings findings_of(const NamedMethod& method, const MeasureOptions& o, const s
     Findings findings{{folder}};
     NamedMethod watched = watch.watched(method);
     bool one_alone = o.words.size() > 1;
-    for (const KnownScene& scene : known_scenes()) {
-        if (!fits(scene, method) || (one_alone && scene.name != o.words[1])) continue;
+    std::vector<KnownScene> scenes = known_scenes();
+    std::erase_if(scenes, [&](const KnownScene& scene) {
+        return !fits(scene, method) || (one_alone && scene.name != o.words[1]);
+    });
+    size_t right = 0;
+    for (const KnownScene& scene : scenes) {
         watch.renders(scene.name);
+        size_t off = findings.off.size();
         compare(scene, watched, o, findings);
+        right += findings.off.size() == off;
+        say_so_far(right, scenes.size(), "small");
     }
     return findings;
 }
@@ -216,8 +239,17 @@ bool print_off(const Findings& found, const std::string& way) {
 /// Renders the worlds that the chapter has rendered, until a few are off. Returns whether any is.
 bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const std::string& file,
                     const std::string& folder, Watch& watch) {
+    // Another process may still be writing it.
+    for (int tenths = 0; !std::filesystem::exists(file); tenths++) {
+        if (tenths > 600) throw InputError("error: nothing wrote " + file);
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
     const WorldValues right = worlds::read(file);
     constexpr size_t enough = 12;
+    auto all = static_cast<size_t>(std::count_if(right.begin(), right.end(), [](const auto& value) {
+        return std::get<2>(value.first) == "noise";
+    }));
+    size_t done = 0;
     Findings found{{folder}};
     std::set<int> rendered;
     for (const NamedMethod& method : methods_named({chapter + "+"})) {
@@ -244,13 +276,18 @@ bool compare_worlds(const std::string& chapter, const MeasureOptions& o, const s
                 Quantity ratio = worlds::ratio_of(
                     values, theirs == right.end() ? std::vector<double>{} : theirs->second);
                 Off here = {world, world, what, ratio, std::isinf(ratio.mean)};
-                if (worlds::is_off(what, ratio)) found.off.push_back(here);
+                if (worlds::is_off(what, ratio)) {
+                    found.off.push_back(here);
+                    if (found.off.size() == 1) say_first(found);
+                }
                 if (what != "noise") continue;
                 if (ratio.mean > most_noise.ratio.mean) most_noise = here;
                 more_noise += ratio.mean > 1.5;
                 less_noise += ratio.mean < 1 / 1.5;
                 if (ratio.mean > 0) noise.add(std::log(std::min(ratio.mean, 10.0)));
             }
+            done++;
+            if (found.off.empty()) say_so_far(done, all, "random");
         }
         // Other random numbers make as often more noise as less, and as much.
         bool often = more_noise - less_noise > 4.2 * std::sqrt(more_noise + less_noise);
