@@ -170,8 +170,7 @@ template <bool any>
     return found;
 }
 
-/// Updates `best` by the hits of the ray with the block. Returns whether `any` is set and a hit was
-/// found.
+/// Updates `best` by hits with the block. Returns whether `any` is set and there was one.
 template <bool any>
 [[gnu::always_inline]] inline bool test_block(const BvhBlock& block, const Geometry& g,
                                               const Ray& ray, const Shear& shear, PrimHit& best) {

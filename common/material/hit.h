@@ -92,10 +92,8 @@ public:
     };
     Here operator->() const {
         Here here = {*material_};
-        if (here.texture != 0) [[unlikely]] {
-            here.reflectance = {unpack(roots_[0]), unpack(roots_[1]), unpack(roots_[2])};
-            if (here.type == MaterialType::conductor) here.k = k_of_reflectance(here.reflectance);
-        }
+        if (here.texture != 0) [[unlikely]]
+            vary(here);
         return here;
     }
     operator const Material*() const { return material_; }
@@ -105,6 +103,11 @@ private:
     static float unpack(uint16_t root) {
         float x = static_cast<float>(root) / 65535;
         return x * x;
+    }
+
+    void vary(Material& here) const {
+        here.reflectance = {unpack(roots_[0]), unpack(roots_[1]), unpack(roots_[2])};
+        if (here.type == MaterialType::conductor) here.k = k_of_reflectance(here.reflectance);
     }
 
     const Material* material_;

@@ -15,8 +15,7 @@ namespace {
     return dot(ray.d, n);
 }
 
-/// Puts x where the ray meets the primitive found, with the normals that the surface has there, and
-/// returns its shape. In its place: a copy would have to wait until all parts are in memory.
+/// Puts x where the ray meets the primitive found, with the normals there, and returns its shape.
 const Shape& place_hit(const Scene& scene, const Geometry& g, const Ray& ray, const PrimHit& found,
                        Hit& x) {
     Vec3 p = ray.o + found.t * ray.d;  // on a triangle its weights are more exact
@@ -101,8 +100,7 @@ void carry_on(const Transform& t, Hit& x) {
             rounding_error(max_component(abs(x.p)));
 }
 
-/// The normal of the mesh at p, a point of this primitive: those of the triangle's corners, each by
-/// its weight, of any length. 0 where there is none.
+/// The normal of the mesh at p, a point of this primitive, of any length; 0 where there is none.
 Vec3 interpolated_normal(const Geometry& g, uint32_t prim, Vec3 p) {
     if (g.normals.empty() || prim >= g.triangles.size()) return {};
     const auto& v = g.triangles[prim].v;
