@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/geometry/shapes.h"
@@ -72,8 +73,10 @@ inline size_t split_median(std::vector<Item>& items, size_t begin, size_t end) {
     int axis = d.x > d.y ? (d.x > d.z ? 0 : 2) : (d.y > d.z ? 1 : 2);
     size_t middle = (begin + end) / 2;
     auto at = [&](size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [&](const Item& a, const Item& b) { return a.centre[axis] < b.centre[axis]; });
+    // Of centres at one place, the primitive with the lower number is on the left.
+    std::nth_element(at(begin), at(middle), at(end), [&](const Item& a, const Item& b) {
+        return std::pair(a.centre[axis], a.prim) < std::pair(b.centre[axis], b.prim);
+    });
     return middle;
 }
 
