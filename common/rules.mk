@@ -18,10 +18,10 @@ link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 ifneq ($(findstring Free Software,$(shell $(CXX) --version)),)
 CXXFLAGS += --param=ggc-min-heapsize=1000000
 
-# g++ compiles the standard headers that most files include once: what begins with them then compiles in three quarters of the
-# time. Each file still includes what it uses, as other compilers need it. With such a file, g++ 12 warns of arrays
-# and copies in std::string by mistake. ccache needs to be told that it may be used. The file itself is not from
-# ccache: g++ knows the headers in it by the times of their files. PRECOMPILED(HEADER): the flags that use it.
+# g++ compiles the standard headers that most files include once: what begins with them then compiles in three
+# quarters of the time. Each file still includes what it uses, as other compilers need it. With such a file, g++ 12
+# warns of arrays and copies in std::string by mistake. ccache needs to be told that it may be used. The file itself is
+# not from ccache: g++ knows the headers in it by the times of their files. PRECOMPILED(HEADER): the flags that use it.
 precompiled = -include $(BUILD)/obj/$(1) -fpch-preprocess -Wno-array-bounds -Wno-restrict \
     -Wno-stringop-overflow -Wno-stringop-overread
 CCACHE_SLOPPINESS ?= pch_defines,time_macros
