@@ -40,8 +40,9 @@ $(BUILD)/obj/standard.h.gch: own_flags =
 # One of its own, since what is precompiled by -O3 makes g++ compile the rest by -O3, too.
 brief_standard := $(brief_common) $(filter-out $(standard) %/fuzz_reader.o,$(call objects_of,tests/*/*.cpp tests/diagnose/*/*.cpp))
 $(brief_standard): own_flags += $(call precompiled,brief/standard.h)
-$(brief_standard): $(BUILD)/obj/brief/standard.h.gch
-$(BUILD)/obj/brief/standard.h.gch: own_flags = $(briefly)
+brief_header := $(BUILD)/obj/brief/standard.h.gch
+$(brief_standard): $(brief_header)
+$(brief_header): own_flags = $(briefly)
 endif
 $(brief_common): own_flags += $(briefly)
 

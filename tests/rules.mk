@@ -4,6 +4,25 @@
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 $(BUILD)/obj/tests/known/%.o $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
+# What tests include takes longer to compile than they do: those of a batch are compiled as one. (APART=1: each alone.)
+ifndef APART
+define batch
+batch_$(1) := $(filter $(tests),$(foreach files,$(2),$(sort $(call objects_of,tests/$(files).cpp))))
+tests := $$(filter-out $$(batch_$(1)),$$(tests)) $(BUILD)/obj/$(BUILD)/batch/$(1).o
+$(BUILD)/obj/$(BUILD)/batch/$(1).o: $(brief_header)
+endef
+$(foreach n,$(numbers),$(eval $(call batch,$n,chapters/ch$n methods/$n)))
+$(eval $(call batch,common-a,common/[a-e]*))
+$(eval $(call batch,common-f,common/[f-l]*))
+$(eval $(call batch,common-m,common/[m-r]*))
+$(eval $(call batch,common-s,common/[s-z]*))
+$(eval $(call batch,laws,laws/densities laws/[akn]*))
+$(eval $(call batch,diagnose,diagnose/*))
+$(eval $(call batch,other,chapters/figures damage/damage grade/* pictures/* printed/* race/*))
+$(BUILD)/obj/$(BUILD)/batch/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(call precompiled,brief/standard.h)
+$(BUILD)/batch/%.cpp: $(if $(COUNT),,always)
+	@mkdir -p $(@D); printf '#include "%s"\n' $(batch_$*:$(BUILD)/obj/%.o=%.cpp) >$@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+endif
 # Most tests run for less time than it takes to compile them by -O3, or with all that trace() calls in one function.
 brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
 $(brief): own_flags += $(briefly) -Dflatten=
@@ -102,7 +121,7 @@ bench: $(BUILD)/bench $(made)
 	@$<
 readmes: $(if $(SLOW),$(addprefix $(BUILD)/,agree bench efficiency stability gnuplot))
 # What a test program consists of beside the test itself.
-harness := $(common) $(support) $(filter $(BUILD)/obj/tests/known/%,$(tests)) $(BUILD)/obj/tests/laws/laws.o $(filter $(BUILD)/obj/tests/methods/%,$(tests))
+harness := $(common) $(support) $(filter $(BUILD)/obj/tests/known/%,$(tests)) $(BUILD)/obj/tests/laws/laws.o $(call objects_of,tests/methods/*.cpp)
 teeth = tests/teeth $(BUILD) '$(CH)' '$(N)' $(CXX) $(filter-out -I.,$(CXXFLAGS))
 #: maintaining: make teeth        plant mistakes, one at a time, and show the test that sees each (CH=09: a page's) (15 minutes)
 teeth: $(harness) $(made)

@@ -29,9 +29,9 @@ void prepare_streams();
 /// The signals that end a program from outside. On Windows these are Ctrl-C, Ctrl-Break, and
 /// SIGTERM for a window that is closed.
 #ifdef _WIN32
-inline const std::vector<int> stop_signals = {SIGINT, SIGTERM, SIGBREAK};
+constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGBREAK};
 #else
-inline const std::vector<int> stop_signals = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
+constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
 #endif
 /// Whether one of them has come since they were caught.
 inline std::atomic<bool> stop_requested = false;

@@ -1,5 +1,6 @@
 // Builds the hierarchy of bounding boxes (chapter 06): a tree of two children per node where the
 // surface area heuristic splits it, then put together into wide nodes as cheaply as can be.
+#include <atomic>
 #include <bit>
 #include <memory>
 #include <queue>

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/progress.h"
+#include "common/base/ray_count.h"
 #include "common/base/system.h"
 #include "common/picture/drawing.h"
 #include "common/recording/class_filter.h"

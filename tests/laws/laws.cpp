@@ -1,5 +1,6 @@
 #include "tests/laws/laws.h"
 
+#include "common/recording/class_filter.h"
 #include "tests/known/scenes.h"
 #include "tests/support/light_paths.h"
 

@@ -1,5 +1,7 @@
 #include "tests/support/scenes.h"
 
+#include "common/recording/class_filter.h"
+
 Sampler random_numbers(uint32_t seed) {
     Sampler sampler(SamplerType::independent, seed, 1);
     sampler.start(0, 0);

@@ -8,7 +8,6 @@
 #include "common/base/files.h"
 #include "common/base/parallel.h"
 #include "common/base/stats.h"
-#include "common/recording/class_filter.h"
 #include "common/render/render.h"
 #include "common/scene/camera.h"
 #include "common/scene/prepare.h"
