@@ -4,24 +4,34 @@
 # Assertions that compile a third faster; an exception in one of them ends its test.
 $(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 $(BUILD)/obj/tests/known/%.o $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
-# What tests include takes longer to compile than they do: those of a batch are compiled as one. (APART=1: each alone.)
+# What tests include takes longer to compile than they do: those of a batch are compiled as one, each in a namespace of its
+# own, behind all that they include: first the chapters, since what one teaches must not be found in it. (APART=1: each alone.)
 ifndef APART
 define batch
 batch_$(1) := $(filter $(tests),$(foreach files,$(2),$(sort $(call objects_of,tests/$(files).cpp))))
 tests := $$(filter-out $$(batch_$(1)),$$(tests)) $(BUILD)/obj/$(BUILD)/batch/$(1).o
 $(BUILD)/obj/$(BUILD)/batch/$(1).o: $(brief_header)
 endef
-$(foreach n,$(numbers),$(eval $(call batch,$n,chapters/ch$n methods/$n)))
+$(eval $(call batch,01-06,chapters/ch0[1-6]))
+$(eval $(call batch,07-10,chapters/ch0[7-9] chapters/ch10 methods/0* methods/10))
+$(eval $(call batch,11-14,chapters/ch1[1-4] methods/1[1-4]))
+$(eval $(call batch,15-17,chapters/ch1[5-7] methods/1[5-7]))
+$(eval $(call batch,18-19,chapters/ch1[89] methods/1[89]))
+$(eval $(call batch,20-21,chapters/ch2[01] methods/2[01]))
+$(eval $(call batch,22-23,chapters/ch2[23] methods/2[23]))
+$(eval $(call batch,24-26,chapters/ch2[456] methods/2[456]))
 $(eval $(call batch,common-a,common/[a-e]*))
 $(eval $(call batch,common-f,common/[f-l]*))
 $(eval $(call batch,common-m,common/[m-r]*))
 $(eval $(call batch,common-s,common/[s-z]*))
-$(eval $(call batch,laws,laws/densities laws/[akn]*))
-$(eval $(call batch,diagnose,diagnose/*))
-$(eval $(call batch,other,chapters/figures damage/damage grade/* pictures/* printed/* race/*))
+$(eval $(call batch,laws,laws/[aknds]*))
+$(eval $(call batch,other,chapters/figures damage/damage diagnose/trials grade/* pictures/* printed/* race/*))
 $(BUILD)/obj/$(BUILD)/batch/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(call precompiled,brief/standard.h)
 $(BUILD)/batch/%.cpp: $(if $(COUNT),,always)
-	@mkdir -p $(@D); printf '#include "%s"\n' $(batch_$*:$(BUILD)/obj/%.o=%.cpp) >$@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+	@mkdir -p $(@D); $(eval files := $(batch_$*:$(BUILD)/obj/%.o=%.cpp)) \
+	    { sed -n '/^#include "ch/p' $(files) | sort -u; sed -n '/^#include/p' $(files) | sort -u; \
+	      printf 'namespace %s {\n#include "%s"\n}\n' $(foreach f,$(files),$(subst /,_,$(basename $f)) $f); } >$@.new; \
+	    cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 endif
 # Most tests run for less time than it takes to compile them by -O3, or with all that trace() calls in one function.
 brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))

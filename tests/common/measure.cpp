@@ -14,7 +14,7 @@
 
 namespace {
 
-Image grey(int width, int height, float level) {
+Image plain(int width, int height, float level) {
     Image image(width, height);
     for (Rgb& p : image.pixels) p = {level, level, level};
     return image;
@@ -66,7 +66,7 @@ TEST_SUITE("comparison") {
     }
 
     TEST_CASE("truth: the verdict names the channels that differ") {
-        Image b = noisy(grey(64, 64, 1), 0.1f, 1), a = b, exchanged = b, brighter = b;
+        Image b = noisy(plain(64, 64, 1), 0.1f, 1), a = b, exchanged = b, brighter = b;
         for (Rgb& p : b.pixels) p = {0.5f * p.r, p.g, 0.2f * p.b};
         for (size_t i = 0; i < b.pixels.size(); i++) {
             Rgb p = b.pixels[i];
@@ -94,11 +94,11 @@ TEST_SUITE("comparison") {
             {"spp 4\nscene a.pbrt", {}}};
         for (const auto& [comment, read] : comments)
             for (const std::string& file : {folder / "a.ppm", folder / "a.png"}) {
-                write_image(file, grey(4, 3, 0.5f), comment);
+                write_image(file, plain(4, 3, 0.5f), comment);
                 CHECK(notes_in(decode_comment(file, read_file(file))) == read);
                 CHECK(read_image(file).width == 4);
             }
-        write_image(folder / "c.pfm", grey(4, 3, 0.5f), comment_of(notes));
+        write_image(folder / "c.pfm", plain(4, 3, 0.5f), comment_of(notes));
         CHECK(decode_comment("c.pfm", read_file(folder / "c.pfm")).empty());
     }
 
@@ -127,7 +127,7 @@ TEST_SUITE("comparison") {
         CHECK(spread.mean().pixels[0] == Rgb{2, 2, 2});
         CHECK(spread.rel_mse(spread.mean()) == nearly(0.5 / 4.01 / 2, 1e-12));
         // One bright and rare pixel: a better mean makes it count for what it is.
-        CHECK(spread.rel_mse(grey(2, 1, 0)) == nearly(25));
+        CHECK(spread.rel_mse(plain(2, 1, 0)) == nearly(25));
     }
 
     TEST_CASE("truth: z of three estimates") {

@@ -8,14 +8,14 @@
 
 namespace {
 
-const std::string ply_square =
+const std::string square =
     "ply\nformat ascii 1.0\ncomment made by hand\nobj_info nothing\n"
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
     "property float nx\nproperty float ny\nproperty float nz\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 .5 0 0 1\n1 0 .5 0 0 1\n\n1 1 5e-1 0 0 1\n0 1 .5 0 0 1\n4 0 1 2 3\n";
 
-std::string refuse_ply(const std::string& bytes) {
+std::string refuse(const std::string& bytes) {
     return error_of([&] { parse_ply("mesh.ply", bytes); });
 }
 
@@ -34,32 +34,31 @@ TEST_SUITE("ply") {
             CHECK(mesh.normals == std::vector<Vec3>(normals, Vec3{0, 0, 1}));
             CHECK(mesh.uvs.empty());
         };
-        check(ply_square, "\n", "\r\n");
-        check(ply_square, "\n", "\r");
-        check(ply_square, "vertex_indices", "vertex_index");
-        check(ply_square, " 4 ", "\n4\n");
-        check(ply_square, "comment made by hand", "");
-        check(ply_square + "what follows is not read", "obj_info nothing\n", "");
+        check(square, "\n", "\r\n");
+        check(square, "\n", "\r");
+        check(square, "vertex_indices", "vertex_index");
+        check(square, " 4 ", "\n4\n");
+        check(square, "comment made by hand", "");
+        check(square + "what follows is not read", "obj_info nothing\n", "");
         // A place in textures, by all the names that it has.
         for (auto [u, v] : {std::pair("u", "v"),
                             {"s", "t"},
                             {"texture_u", "texture_v"},
                             {"texture_s", "texture_t"}}) {
-            std::string text = ply_square;
+            std::string text = square;
             for (auto [from, to] : {std::pair("nx", u), {"nz", v}})
                 text.replace(text.find(from), 2, to);
             TriangleMesh mesh = parse_ply("mesh.ply", text);
             REQUIRE(mesh.uvs.size() == 4);
             for (Vec2 uv : mesh.uvs) CHECK(uv.x + 2 * uv.y == 2);
         }
-        check(ply_square, "float nz", "float u",
-              0);  // normals and places that are not whole are none
+        check(square, "float nz", "float u", 0);  // normals and places that are not whole are none
         // A number that is cut short is a number, and so the last one may lose digits.
-        for (size_t length = 0; length <= ply_square.rfind('3'); length++) {
+        for (size_t length = 0; length <= square.rfind('3'); length++) {
             CAPTURE(length);
-            CHECK(refuse_ply(ply_square.substr(0, length)) != "");
+            CHECK(refuse(square.substr(0, length)) != "");
         }
-        CHECK(refuse_ply(ply_square.substr(0, ply_square.size() - 1)) == "");
+        CHECK(refuse(square.substr(0, square.size() - 1)) == "");
     }
 
     TEST_CASE("identity: PLY of any format and types is read as it was written") {
@@ -102,7 +101,7 @@ TEST_SUITE("ply") {
     TEST_CASE("input: every malformed PLY is refused with its message and place") {
         auto cases = read_malformed_cases("tests/support/malformed/ply.txt");
         CHECK(cases.size() >= 30);
-        for (const MalformedCase& c : cases) CHECK(refuse_ply(c.input) == c.message);
+        for (const MalformedCase& c : cases) CHECK(refuse(c.input) == c.message);
     }
 
     TEST_CASE("input: a header that lies makes nothing large, and names the byte") {
@@ -113,12 +112,12 @@ TEST_SUITE("ply") {
                           face = "element face 1\nproperty list uchar int vertex_indices\n",
                           one = "element vertex 1\n" + vertex + face, origin(12, '\0'),
                           corners("\3\0\0\0\0\0\0\0\0\0\0\0\0", 13), header = little(one);
-        CHECK(refuse_ply(little("element vertex 60000000\n" + vertex + face) + origin)
+        CHECK(refuse(little("element vertex 60000000\n" + vertex + face) + origin)
                   .find(": error: the file ends too early at byte ") == 8);
-        CHECK(refuse_ply(little("element big 1\nproperty list uint char values\n" + one) +
-                         "\xff\xff\xff\xff" + origin)
+        CHECK(refuse(little("element big 1\nproperty list uint char values\n" + one) +
+                     "\xff\xff\xff\xff" + origin)
                   .find(": error: the file is too short for 4294967295 values") == 8);
-        CHECK(refuse_ply(header + origin + "\1") != "");
-        CHECK(refuse_ply(header + origin + corners) == "");
+        CHECK(refuse(header + origin + "\1") != "");
+        CHECK(refuse(header + origin + corners) == "");
     }
 }

@@ -21,7 +21,7 @@ Scene read_options(const std::string& text) {
     return parse_scene("scene.pbrt",
                        unquoted(text + " WorldBegin LightSource 'point' Shape 'sphere'"), nullptr);
 }
-const std::string camera = " Camera 'perspective' ", half_grey = " 0.5 0.5 0.5";
+const std::string camera = " Camera 'perspective' ", grey = " 0.5 0.5 0.5";
 
 /// The lines of a world but those of its first disk and sky, which let anything be a scene. Paint
 /// of the default reflectance is left out.
@@ -29,8 +29,7 @@ std::string described(const std::string& text, std::vector<std::string>* notes =
     std::string words = in_words(read_world(text, notes));
     for (const char* line : {"disk 0 0 0, 0 0 1, 1 0.5 0.5 0.5\n", "infinite 1 1 1\n"})
         words.erase(words.find(line), std::string(line).size());
-    for (size_t at; (at = words.find(half_grey)) != std::string::npos;)
-        words.erase(at, half_grey.size());
+    for (size_t at; (at = words.find(grey)) != std::string::npos;) words.erase(at, grey.size());
     return words;
 }
 

@@ -10,7 +10,7 @@
 
 namespace {
 
-const std::string opening = "Camera \"perspective\"\nWorldBegin LightSource \"infinite\"\n";
+const std::string start = "Camera \"perspective\"\nWorldBegin LightSource \"infinite\"\n";
 
 /// A mesh of a rectangle, or of a triangle, with these corners.
 std::string mesh(const std::string& corners, bool rectangle = true) {
@@ -24,7 +24,7 @@ std::string level(const std::string& y, const std::string& x0, const std::string
     auto corner = [&](const auto& x, const auto& z) { return x + " " + y + " " + z + " "; };
     return mesh(corner(x0, z0) + corner(x1, z0) + corner(x1, z1) + corner(x0, z1));
 }
-const std::string area_light = "AreaLightSource \"diffuse\"\n",
+const std::string lamp = "AreaLightSource \"diffuse\"\n",
                   small = level("1", "-.5", "-.5", ".5", ".5"),
                   disk = "Translate 0 1 0 Rotate 90 1 0 0 Shape \"disk\" \"float radius\" .3\n",
                   turn = "Rotate 37 1 2 3 Translate 30 40 50\n";
@@ -34,11 +34,11 @@ std::string ball(const std::string& radius = "2") {
 }
 
 std::vector<std::string> notes_of(const std::string& world) {
-    return notes_of_coincident(scene_of(opening + world));
+    return notes_of_coincident(scene_of(start + world));
 }
 
 /// The box of the one shape that moves in a world.
-Box box_of_mover(const std::string& world) { return scene_of(opening + world).movers.at(0)->box; }
+Box box_of_mover(const std::string& world) { return scene_of(start + world).movers.at(0)->box; }
 
 /// Whether the box reaches from low to high, and as much farther as rounding needs.
 bool reaches(const Box& box, Vec3 low, Vec3 high) {
@@ -64,39 +64,37 @@ TEST_SUITE("scene") {
         const std::pair<std::string, std::string> cases[] = {
             // In a plane: all of a lamp, a corner of it, by a disk, of a wall that is turned, and
             // two lamps.
-            {ceiling() + area_light + small, with_shape},
-            {level("1", ".4", ".4", "2", "2") + area_light + small, with_shape},
-            {ceiling() + area_light + disk, some},
-            {turn + ceiling() + "Rotate 20 0 1 0\n" + area_light + small, some},
-            {area_light + small + small,
-             "5:1: note: this lamp and the Shape at test.pbrt:4:1 lie "},
-            {area_light + small + "ReverseOrientation\n" + disk, some},
-            {area_light +
-                 "Shape \"trianglemesh\" \"integer indices\" [0 1 2 2 0 1] \"point3 P\" [" + half +
-                 "]",
+            {ceiling() + lamp + small, with_shape},
+            {level("1", ".4", ".4", "2", "2") + lamp + small, with_shape},
+            {ceiling() + lamp + disk, some},
+            {turn + ceiling() + "Rotate 20 0 1 0\n" + lamp + small, some},
+            {lamp + small + small, "5:1: note: this lamp and the Shape at test.pbrt:4:1 lie "},
+            {lamp + small + "ReverseOrientation\n" + disk, some},
+            {lamp + "Shape \"trianglemesh\" \"integer indices\" [0 1 2 2 0 1] \"point3 P\" [" +
+                 half + "]",
              "4:1: note: this lamp and the Shape at test.pbrt:4:1 lie "},
             // Two triangles of a lamp, a wall that it touches, a millimetre, what crosses it, a
             // ball that it touches, and two walls that overlap but are not the same.
-            {area_light + small, ""},
-            {level("1", ".5", "-2", "2", "2") + area_light + small, ""},
-            {ceiling("1.001") + area_light + small, ""},
+            {lamp + small, ""},
+            {level("1", ".5", "-2", "2", "2") + lamp + small, ""},
+            {ceiling("1.001") + lamp + small, ""},
             {"Translate 0 1 0 Rotate .01 0 0 1 Translate 0 -1 0\n" + ceiling() + "Identity\n" +
-                 area_light + small,
+                 lamp + small,
              ""},
-            {"Translate 0 3 0\n" + ball() + "Identity\n" + area_light + small, ""},
+            {"Translate 0 3 0\n" + ball() + "Identity\n" + lamp + small, ""},
             {ceiling() + small, ""},
             // Apart by rounding, or by more: 2^-20 of the largest coordinate.
-            {ceiling("1.0000007") + area_light + small, some},
-            {ceiling("0.9999993") + area_light + small, some},
-            {ceiling("1.0000011") + area_light + small, ""},
-            {ceiling("0.9999989") + area_light + small, ""},
+            {ceiling("1.0000007") + lamp + small, some},
+            {ceiling("0.9999993") + lamp + small, some},
+            {ceiling("1.0000011") + lamp + small, ""},
+            {ceiling("0.9999989") + lamp + small, ""},
             // One box of a ball and a triangle.
-            {mesh("-2 -2 -2  2 2 2  -2 2 0", false) + area_light + ball(), ""},
+            {mesh("-2 -2 -2  2 2 2  -2 2 0", false) + lamp + ball(), ""},
             // An overlap by a thousandth of an edge of 18 m, of the lamp or of the other face.
-            {from(".981") + area_light + mesh(half, false), some},
-            {from(".983") + area_light + mesh(half, false), ""},
-            {mesh(half, false) + area_light + from(".981"), some},
-            {mesh(half, false) + area_light + from(".983"), ""},
+            {from(".981") + lamp + mesh(half, false), some},
+            {from(".983") + lamp + mesh(half, false), ""},
+            {mesh(half, false) + lamp + from(".981"), some},
+            {mesh(half, false) + lamp + from(".983"), ""},
         };
         for (const auto& [world, note] : cases) {
             CAPTURE(world);
@@ -104,7 +102,7 @@ TEST_SUITE("scene") {
             REQUIRE(notes.size() == (note.empty() ? 0 : 1));
             if (!notes.empty()) CHECK(notes[0].find(note) != std::string::npos);
         }
-        std::string pairs = area_light;
+        std::string pairs = lamp;
         for (int i = 0; i < 25; i++) pairs += "Translate 0 1 0\n" + small + small;
         CHECK(notes_of(pairs).size() == 20);
     }
@@ -137,7 +135,7 @@ TEST_SUITE("scene") {
         const std::string still = "Translate 1 3 4 " + ball(),
                           move = "ActiveTransform EndTime Translate 4 0 0 ActiveTransform All ";
         for (bool moves : {false, true}) {
-            Scene scene = scene_of(opening + still + (moves ? move + ball() : ""));
+            Scene scene = scene_of(start + still + (moves ? move + ball() : ""));
             CHECK(length(scene.centre - Vec3{moves ? 3.f : 1.f, 3, 4}) < 1e-4f);
             CHECK(std::abs(scene.radius - std::sqrt(moves ? 24.f : 12.f)) < 2e-4f);
             CHECK(scene.moves == moves);
@@ -179,7 +177,7 @@ TEST_SUITE("scene") {
         };
         for (const auto& c : cases) {
             CAPTURE(c.shape);
-            Scene scene = scene_of(opening + area_light + c.shape);
+            Scene scene = scene_of(start + lamp + c.shape);
             const LightShape& lit = scene.light_shapes.at(1);
             CHECK(double{lit.area} == doctest::Approx(c.area).epsilon(2e-5).scale(0));
             CHECK(length(lit.centre - c.centre) < 2e-5f);

@@ -48,7 +48,7 @@ Image four_corners() {
     return image;
 }
 
-const std::string under_sky = "Camera 'perspective' WorldBegin LightSource 'infinite'\n";
+const std::string start = "Camera 'perspective' WorldBegin LightSource 'infinite'\n";
 
 /// A scene in a folder of its own, with a picture beside it.
 struct Gallery {
@@ -61,9 +61,9 @@ struct Gallery {
     /// World directives behind the texture "t": the picture, with these parameters.
     Scene scene(const std::string& world, const std::string& texture = "'string filter' 'point'",
                 const std::string& file = "a.pfm", const Limits& limits = {}) const {
-        std::string text = under_sky + "Texture 't' 'spectrum' 'imagemap' 'string filename' '" +
-                           file + "' " + texture +
-                           "\nMaterial 'diffuse' 'texture reflectance' 't'\n" + world;
+        std::string text = start + "Texture 't' 'spectrum' 'imagemap' 'string filename' '" + file +
+                           "' " + texture + "\nMaterial 'diffuse' 'texture reflectance' 't'\n" +
+                           world;
         Scene scene = parse_scene(folder / "scene.pbrt", unquoted(text), nullptr, {}, limits);
         prepare(scene, 1);
         return scene;

@@ -4,8 +4,6 @@
 #include "tests/support/gates.h"
 #include "tests/support/scenes.h"
 
-inline constexpr double pi_exact = std::numbers::pi;
-
 /// Black area lights of radiance 1 from here on.
 inline const std::string shining =
     "AreaLightSource \"diffuse\" Material \"diffuse\" \"rgb reflectance\" [0 0 0]\n";

@@ -3,12 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/base/stats.h"
 #include "common/base/vec.h"
+
+inline constexpr double pi_exact = std::numbers::pi;
 
 /// The mean of independent samples is within 5 standard errors of `truth`, by the KNOWN variance of
 /// one sample; a right estimator fails once in 1.7 million seeds. `resolution` is the bias that the

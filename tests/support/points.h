@@ -6,7 +6,6 @@
 #include "common/render/options.h"
 #include "tests/support/gates.h"
 
-inline constexpr double pi_exact = std::numbers::pi;
 inline constexpr double dart_variance = pi_exact * (4 - pi_exact);
 
 /// Estimates of the integral of f from `runs` sets; estimate(seed, f): from one.
