@@ -24,10 +24,9 @@ numbers   := $(foreach chapter,$(chapters),$(firstword $(subst _, ,$(chapter))))
 tools     := $(basename $(notdir $(wildcard common/tools/*.cpp)))
 objects    = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(filter-out $(2),$(wildcard $(1)/*/*.cpp)))
 common    := $(call objects,common,common/tools/% common/book/%)
-tests     := $(call objects,tests,$(without) tests/measure/% \
-             tests/damage/fuzz_reader.cpp tests/check/compare_scenes.cpp)
+tests     := $(call objects,tests,tests/measure/% tests/damage/fuzz_reader.cpp tests/check/compare_scenes.cpp)
 support   := $(filter $(BUILD)/obj/tests/support/%,$(tests))
-# Programs that tests start: see tests/rules.mk. (without: files of tests that are left out.)
+# Programs that tests start: see tests/rules.mk.
 started    =
 made = $(addprefix scenes/,globe.pfm knot.ply pool.ply sky.pfm thousand-lights.pbrt)
 

@@ -18,10 +18,9 @@ link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 ifneq ($(findstring Free Software,$(shell $(CXX) --version)),)
 CXXFLAGS += --param=ggc-min-heapsize=1000000
 
-# g++ compiles the standard headers that most files include once: what begins with them then compiles in three
-# quarters of the time. Each file still includes what it uses, as other compilers need it. With such a file, g++ 12
-# warns of arrays and copies in std::string by mistake. ccache needs to be told that it may be used. The file itself is
-# not from ccache: g++ knows the headers in it by the times of their files. PRECOMPILED(HEADER): the flags that use it.
+# g++ compiles the standard headers that most files include once: the rest then takes three quarters of the time. With
+# such a file, g++ 12 warns of arrays and copies in std::string by mistake. ccache needs to be told that it may be used,
+# and cannot keep it: g++ knows the headers in it by the times of their files. PRECOMPILED(HEADER): the flags that use it.
 precompiled = -include $(BUILD)/obj/$(1) -fpch-preprocess -Wno-array-bounds -Wno-restrict \
     -Wno-stringop-overflow -Wno-stringop-overread
 CCACHE_SLOPPINESS ?= pch_defines,time_macros
@@ -61,13 +60,6 @@ $(BUILD)/include/stb: # of Debian's own compiler
 	@mkdir -p $(@D); ln -sfn /usr/include/doctest /usr/include/stb $(@D)
 endif
 endif
-
-# One entry for each file that is compiled, in the form that editors read.
-compiled := $(sort $(filter-out common/book/%,$(wildcard chapters/*/*.cpp common/*/*.cpp scenes/*.cpp tests/*/*.cpp tests/*/*/*.cpp)))
-#: maintaining: make compile_commands.json   tells editors how files are compiled
-compile_commands.json: $(BUILD)/flags $(compiled)
-	@printf '{"directory": "$(CURDIR)", "file": "%s", "command": "$(CXX) $(CXXFLAGS) $(hash_flags) -c %s"}\n' \
-	    $(foreach file,$(compiled),$(file) $(file)) | sed '1s/^/[/; $$!s/$$/,/; $$s/$$/]/' >$@
 
 # Changes when the compiler or its flags do: then all is compiled again.
 $(BUILD)/flags: $(if $(COUNT),,always)

@@ -1,41 +1,28 @@
-.PHONY: test-book exercise check checkers mine fuzz probes grade boxes chart \
-        front stability agree efficiency compare references bench teeth break mutants race
+.PHONY: test-book exercise check checkers mine fuzz probes grade boxes chart stability agree efficiency compare references bench teeth break mutants race
 
-# Assertions that compile a third faster; an exception in one of them ends its test.
-$(BUILD)/obj/tests/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
-$(BUILD)/obj/tests/known/%.o $(BUILD)/obj/tests/diagnose/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(briefly)
+# Assertions that compile a third faster; an exception in one of them ends its test. Most tests run for less time than it
+# takes to compile them by -O3, or with all that trace() calls in one function.
+asserts = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+$(BUILD)/obj/tests/%.o $(BUILD)/obj/$(BUILD)/batch/%.o: own_flags = $(asserts) $(briefly) -Dflatten=
+$(patsubst %,$(BUILD)/obj/tests/%/%.o,$(thorough) race/programs): own_flags = $(asserts)
 # What tests include takes longer to compile than they do: those of a batch are compiled as one, each in a namespace of its
-# own, behind all that they include: first the chapters, since what one teaches must not be found in it. (APART=1: each alone.)
-ifndef APART
+# own, behind all that they include: first the chapters, since what one teaches must not be found in it. NAME,FILES:
 define batch
 batch_$(1) := $(filter $(tests),$(foreach files,$(2),$(sort $(call objects_of,tests/$(files).cpp))))
 tests := $$(filter-out $$(batch_$(1)),$$(tests)) $(BUILD)/obj/$(BUILD)/batch/$(1).o
 $(BUILD)/obj/$(BUILD)/batch/$(1).o: $(brief_header)
+$(BUILD)/obj/$(BUILD)/batch/$(1).o: own_flags += $(call precompiled,brief/standard.h)
 endef
-$(eval $(call batch,01-06,chapters/ch0[1-6]))
-$(eval $(call batch,07-10,chapters/ch0[7-9] chapters/ch10 methods/0* methods/10))
-$(eval $(call batch,11-14,chapters/ch1[1-4] methods/1[1-4]))
-$(eval $(call batch,15-17,chapters/ch1[5-7] methods/1[5-7]))
-$(eval $(call batch,18-19,chapters/ch1[89] methods/1[89]))
-$(eval $(call batch,20-21,chapters/ch2[01] methods/2[01]))
-$(eval $(call batch,22-23,chapters/ch2[23] methods/2[23]))
-$(eval $(call batch,24-26,chapters/ch2[456] methods/2[456]))
-$(eval $(call batch,common-a,common/[a-e]*))
-$(eval $(call batch,common-f,common/[f-l]*))
-$(eval $(call batch,common-m,common/[m-r]*))
-$(eval $(call batch,common-s,common/[s-z]*))
+between = $(subst [,,$(subst ],,$(1)))
+$(foreach n,0[1-6] 0[7-9] 1[0-4] 1[5-7] 1[8-9] 2[0-1] 2[2-3] 2[4-6],$(eval $(call batch,$(call between,$n),chapters/ch$n methods/$n)))
+$(foreach n,[a-e] [f-l] [m-r] [s-z],$(eval $(call batch,$(call between,$n),common/$n*)))
 $(eval $(call batch,laws,laws/[aknds]*))
 $(eval $(call batch,other,chapters/figures damage/damage diagnose/trials grade/* pictures/* printed/* race/*))
-$(BUILD)/obj/$(BUILD)/batch/%.o: own_flags = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS $(call precompiled,brief/standard.h)
 $(BUILD)/batch/%.cpp: $(if $(COUNT),,always)
 	@mkdir -p $(@D); $(eval files := $(batch_$*:$(BUILD)/obj/%.o=%.cpp)) \
 	    { sed -n '/^#include "ch/p' $(files) | sort -u; sed -n '/^#include/p' $(files) | sort -u; \
 	      printf 'namespace %s {\n#include "%s"\n}\n' $(foreach f,$(files),$(subst /,_,$(basename $f)) $f); } >$@.new; \
 	    cmp -s $@.new $@ && rm $@.new || mv $@.new $@
-endif
-# Most tests run for less time than it takes to compile them by -O3, or with all that trace() calls in one function.
-brief := $(filter-out $(addprefix $(BUILD)/obj/tests/,check/% diagnose/% known/% methods/%),$(tests))
-$(brief): own_flags += $(briefly) -Dflatten=
 
 # The book, tried out in headless browsers.
 #: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
@@ -95,7 +82,6 @@ measuring := $(basename $(notdir $(shell grep -l '^int main' tests/measure/*.cpp
 methods   := $(filter-out $(measuring:%=tests/measure/%.cpp),$(wildcard tests/measure/*.cpp)) $(wildcard tests/methods/*.cpp)
 comma     := ,
 chosen     = $(if $(A),--methods $(A)$(if $(B),$(comma)$(B)))
-quick      = $(if $(QUICK),$(1))
 of_reader  = $(filter mine/%,$(A) $(B))
 
 $(measuring:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/measure/%.o $(methods:%.cpp=$(BUILD)/obj/%.o) $(common)
@@ -106,11 +92,7 @@ $(BUILD)/gnuplot:
 
 #: measuring: make chart        error against time of all chapters (11 minutes; QUICK=1: 2; SCENE=cornell)
 chart: $(BUILD)/chart $(BUILD)/gnuplot $(made)
-	$(BUILD)/chart $(SCENE) $(chosen) $(call quick,--seconds 60)
-#: maintaining: make front        the chart of the front page, anew
-front: $(BUILD)/chart $(BUILD)/gnuplot $(made)
-	$(BUILD)/chart cornell --methods all --seconds 60
-	cp out/chart-cornell.svg tests/measure/front.svg
+	$(BUILD)/chart $(SCENE) $(chosen) $(if $(QUICK),--seconds 60)
 #: measuring: make stability    do methods fail where theory says, as it says, and nowhere else? (3 minutes)
 stability: $(BUILD)/stability $(made)
 	$<

@@ -25,10 +25,6 @@ inline Vec3 sample_uniform_hemisphere(Vec2 u) {
     return from_cylindrical(r, u.y, z);
 }
 inline float pdf_uniform_hemisphere() { return 1 / (2 * pi); }
-inline Vec2 invert_uniform_hemisphere(Vec3 w) {
-    float phi = std::atan2(w.y, w.x);
-    return {1 - w.z, (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
-}
 
 /// The mirror direction.      f cos = F, the share of light that the metal reflects (Fresnel)
 inline BsdfSample sample_mirror(const Hit& x, Vec3 wo) {

@@ -30,12 +30,6 @@ inline Vec3 sample_ggx_normal(Vec3 wo, float alpha, Vec2 u) {
 inline float pdf_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
     return ggx_D(h, alpha) * std::max(0.0f, dot(wo, h)) / ((1 + ggx_lambda(wo, alpha)) * wo.z);
 }
-inline Vec2 invert_ggx_normal(Vec3 wo, float alpha, Vec3 h) {
-    Vec3 w = normalize({alpha * wo.x, alpha * wo.y, wo.z});
-    Vec3 n = normalize({h.x / alpha, h.y / alpha, h.z}), c = 2 * dot(n, w) * n - w;
-    float phi = std::atan2(c.y, c.x);
-    return {1 - (c.z + w.z) / (1 + w.z), (phi < 0 ? phi + 2 * pi : phi) / (2 * pi)};
-}
 
 /// The BSDF of a rough conductor, in sr^-1; h ~ wo + wi. Below: its sampling density, and a sample.
 inline Rgb eval_rough_conductor(const Hit& x, Vec3 wo, Vec3 wi) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,14 @@
 #include "common/scene/prepare.h"
 #include "common/scene_file/lexer.h"
 #include "common/scene_file/reader.h"
+
+/// A copy of the position that lasts as long as the program: what a scene is made of points to it.
+inline const Position* kept(const Position& at) {
+    static std::mutex mutex;
+    static std::set<Position> all;
+    std::lock_guard lock(mutex);
+    return &*all.insert(at).first;
+}
 
 /// Stops where there are more than `most` things.
 inline void check_limit(const Position& at, uint64_t count, uint64_t most,
