@@ -8,7 +8,7 @@
 
 #include "common/base/ray_count.h"
 
-void parallel_for(int count, int threads, const std::function<void(int)>& work) {
+void on_threads(int count, int threads, const std::function<void(int)>& work) {
     std::atomic<int> next = 0;
     auto run = [&] {
         try {

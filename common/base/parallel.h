@@ -13,4 +13,9 @@ using Report = std::function<void(const std::string& what, double share)>;
 /// Calls work(i) for i = 0 .. count-1 on `threads` threads, each taking the next i when it is free.
 /// What work throws stops it all, and is thrown on to the caller. Rays that other threads trace for
 /// it are added to the caller's count.
-void parallel_for(int count, int threads, const std::function<void(int)>& work);
+void on_threads(int count, int threads, const std::function<void(int)>& work);
+template <typename Work>
+void parallel_for(int count, int threads, const Work& work) {
+    if (threads > 1) return on_threads(count, threads, work);
+    for (int i = 0; i < count; i++) work(i);
+}
