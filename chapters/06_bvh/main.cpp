@@ -11,7 +11,6 @@ int main(int argc, char** argv) {
         RenderOptions options = parse_render_options(argc, argv, "06_bvh", {"scenes/knot.pbrt", 0},
                                                      {which}, {"size", "threads", "out", "quiet"});
         Scene scene = load(options, features_of(6));
-        check_outputs(scene, options);
         Table table;
         if (!options.quiet) table = ch06::steps_table(scene);
         FilmLabel label = label_of(scene, options);

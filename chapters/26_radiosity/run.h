@@ -178,7 +178,6 @@ inline Shown show(const Scene& scene, const std::shared_ptr<const Patches>& patc
 /// One run of the program: patches, solution, picture. Time and signals end the solution, and then
 /// the picture, soon.
 inline int run(const Scene& scene, RenderOptions options, const Settings& settings) {
-    check_outputs(scene, options);
     Limit limit(options.time);
     refuse_many(scene, 2 * scene.geometry.triangles.size());
     auto patches =

@@ -41,6 +41,7 @@ Scene load(const RenderOptions& options, Features features) {
     if (options.width > 0) scene.width = options.width, scene.height = options.height;
     if (options.spp > 0) scene.spp = options.spp;
     if (options.max_depth >= 0) scene.max_depth = options.max_depth;
+    check_outputs(scene, options);
     prepare(scene, options.threads, report);
     if (!options.quiet) tell_all(notes_of_coincident(scene));
     return scene;

@@ -409,7 +409,6 @@ Rendering render_film(const Scene& scene, const RenderOptions& options, const Me
 }
 
 int render(const Scene& scene, const RenderOptions& options, const Method& method) {
-    check_outputs(scene, options);
     if (options.explain) return explain(scene, options, method);
     Limit until_all_is_written;
     return write_results(scene, options, render_film(scene, options, method));

@@ -27,7 +27,7 @@ constexpr Features features_of(int chapter) {
 }
 
 /// Reads and prepares the scene that the options name. Size, samples and depth in the options
-/// replace those of the scene. Throws as fit_features() does.
+/// replace those of the scene. Throws as fit_features() and check_outputs() do, before any work.
 Scene load(const RenderOptions& options, Features features);
 
 /// Throws InputError if the scene has a lens, moving shapes, a sky image, dispersive glass or rough
