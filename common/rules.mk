@@ -12,6 +12,7 @@ briefly       = $(if $(filter -O3,$(OPT)),-O1)
 brief_folders := picture render scene_file
 thorough      := check measure methods
 brief_common  := $(filter $(foreach f,$(brief_folders),$(BUILD)/obj/common/$f/%),$(filter-out %/film.o %/render/render.o,$(common)))
+objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard $(1)))
 link = @echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@ $(LIBS)
 
 # g++ collects garbage for a twentieth of its time, to need 30 MB less.
@@ -31,7 +32,6 @@ $(BUILD)/obj/%.h.gch: $(BUILD)/flags | $(BUILD)/packages
 	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -x c++-header $(basename $@) -o $@
 headers := algorithm array atomic bit chrono cmath cstdint cstdio cstring filesystem fstream functional limits map memory \
     numeric optional set span sstream string utility vector
-objects_of = $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard $(1)))
 standard := $(filter-out $(brief_common),$(common)) $(call objects_of,chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp $(thorough:%=tests/%/*.cpp))
 $(standard): own_flags += $(call precompiled,standard.h)
 $(standard): $(BUILD)/obj/standard.h.gch
