@@ -1,4 +1,4 @@
-.PHONY: test-book exercise check checkers mine fuzz probes grade boxes chart stability agree efficiency compare references bench teeth break mutants race
+.PHONY: test-book exercise check checkers mine fuzz probes grade chart stability agree efficiency compare references bench teeth break mutants race
 
 # Assertions that compile a third faster; an exception in one of them ends its test. Most tests run for less time than it
 # takes to compile them by -O3, or with all that trace() calls in one function.
@@ -10,7 +10,7 @@ $(patsubst %,$(BUILD)/obj/tests/%/%.o,$(thorough) race/programs): own_flags = $(
 define batch
 batch_$(1) := $(filter $(tests),$(foreach files,$(2),$(sort $(call objects_of,tests/$(files).cpp))))
 tests := $$(filter-out $$(batch_$(1)),$$(tests)) $(BUILD)/obj/$(BUILD)/batch/$(1).o
-$(BUILD)/obj/$(BUILD)/batch/$(1).o: $(brief_header)
+$(BUILD)/obj/$(BUILD)/batch/$(1).o: $(if $(precompiled),$(BUILD)/obj/brief/standard.h.gch)
 $(BUILD)/obj/$(BUILD)/batch/$(1).o: own_flags += $(call precompiled,brief/standard.h)
 endef
 between = $(subst [,,$(subst ],,$(1)))
@@ -24,7 +24,6 @@ $(BUILD)/batch/%.cpp: $(if $(COUNT),,always)
 	      printf 'namespace %s {\n#include "%s"\n}\n' $(foreach f,$(files),$(subst /,_,$(basename $f)) $f); } >$@.new; \
 	    cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
-# The book, tried out in headless browsers.
 #: maintaining: make test-book    open every page of the book in Chromium and Firefox, and use what is live (5 minutes; needs npm)
 test-book: book programs
 	@[ -d $(BUILD)/node_modules/puppeteer-core ] || npm install --no-save --no-fund --prefix $(BUILD) puppeteer-core@24 || \
@@ -69,11 +68,9 @@ probes: $(BUILD)/diagnose
 $(BUILD)/diagnose: $(BUILD)/obj/tests/diagnose/programs/diagnose.o $(diagnosing) $(common)
 	@echo "link $@"; $(CXX) $(CXXFLAGS) $^ -o $@
 
-# Students' files, graded.
-boxes: | $(BUILD)/packages
-	@command -v bwrap >/dev/null || common/tools/install bubblewrap
 #: teaching: make grade DIR=submissions   check a folder of students' files, each in a box, into out/grade/ (CH=09, WEIGHTS=FILE)
-grade: boxes checkers programs
+grade: checkers programs
+	@command -v bwrap >/dev/null || common/tools/install bubblewrap
 	@tests/grade/grade $(BUILD) '$(DIR)' $(CH:%=--chapter %) $(if $(WEIGHTS),--weights '$(WEIGHTS)') \
 	    -- $(CXX) $(filter-out -I.,$(CXXFLAGS))
 
@@ -122,12 +119,10 @@ teeth: $(harness) $(made)
 break: $(harness) $(made)
 	@$(if $(and $(CH),$(N)),$(teeth),echo 'usage: make break CH=09 N=2' >&2; exit 1)
 
-# Changes of the code that no test notices.
 #: maintaining: make mutants DIR=common/light   change the code in 25 (or N=) places, and list what no test notices (SEED=)
 mutants: programs $(BUILD)/tests $$(started)
 	@tests/mutants --build $(BUILD) $(if $(N),--n $(N)) $(if $(SEED),--seed $(SEED)) $(DIR)
 
-# Other renderers beside the methods of the chapters.
 $(BUILD)/flatten: $(BUILD)/obj/tests/race/programs/flatten.o $(common)
 	$(link)
 started += $(BUILD)/flatten

@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr const char* channels[] = {"red", "green", "blue", "brightness"};
+constexpr const char* channel_names[] = {"red", "green", "blue", "brightness"};
 constexpr size_t brightness = 3;
 
 double value(Rgb c, size_t channel) {
@@ -40,7 +40,7 @@ std::vector<PixelError> errors_of(const Image& a, const Image& b) {
 void add_row(const Image& a, const Image& b, size_t channel, Comparison& result) {
     constexpr int side = 8, fewest = 16;  // pixels of a block, to estimate their spread
     RunningStats mean_a, mean_b;
-    ChannelComparison row{channels[channel]};
+    ChannelComparison row{channel_names[channel]};
     double variance = 0, pixels = 0;  // of the sum of the differences
     result.blocks = 0;
     for (int y0 = 0; y0 < a.height; y0 += side) {

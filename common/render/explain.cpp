@@ -13,7 +13,7 @@
 namespace {
 
 constexpr float side = 460, margin = 20;  // px
-constexpr const char *path = "fill='#c03' stroke='#c03' stroke-width='2'",
+constexpr const char *path_style = "fill='#c03' stroke='#c03' stroke-width='2'",
                      *open = "stroke='#080' stroke-width='1.5'",
                      *blocked = "stroke='#555' stroke-width='1.5' stroke-dasharray='5 4'";
 
@@ -109,7 +109,8 @@ void draw_line(std::string& svg, const Panel& panel, Vec3 a, Vec3 b, const char*
 void draw_point(std::string& svg, const Panel& panel, Vec3 p, const std::string& name) {
     if (!(panel.depth(p) > 0)) return;
     Vec2 at = panel.project(p);
-    svg += format("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, path);
+    svg +=
+        format("<circle cx='%.1f' cy='%.1f' r='4' %s/>\n", double{at.x}, double{at.y}, path_style);
     svg += words({at.x + 6, at.y - 6}, name);
 }
 
@@ -135,7 +136,7 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
         draw_scene(svg, panel, scene);
         for (const auto& [ray, shadow, met, t] : rays) {
             if (met && !shadow) continue;  // leads to the next vertex
-            const char* style = !shadow ? path : met ? blocked : open;
+            const char* style = !shadow ? path_style : met ? blocked : open;
             float end = std::min(shadow ? ray.t_max : t, 2 * scene.radius);
             draw_line(svg, panel, ray.o, ray.o + end * ray.d, style);
         }
@@ -143,7 +144,7 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
         for (size_t i = 0; i < vertices.size(); i++) {
             const auto& [p, from] = vertices[i];
             Vec3 before = from < 0 ? eye : vertices[static_cast<size_t>(from)].p;
-            if (from >= -1) draw_line(svg, panel, before, p, path);
+            if (from >= -1) draw_line(svg, panel, before, p, path_style);
             draw_point(svg, panel, p, std::to_string(i + 1));
         }
         svg += "</svg>\n";
