@@ -36,9 +36,9 @@ CCACHE_SLOPPINESS ?= pch_defines,time_macros
 export CCACHE_SLOPPINESS
 $(BUILD)/obj/%.h.gch: $(BUILD)/flags | $(BUILD)/packages
 	@mkdir -p $(@D); echo "$(counted)compile $(@F)"
-	@printf '#include <%s>\n' $(headers) >$(basename $@)
+	@printf '#include <%s>\n' $(headers) $(if $(findstring /brief/,$@),filesystem) >$(basename $@)
 	@CCACHE_DISABLE=1 $(CXX) $(CXXFLAGS) $(own_flags) -w -x c++-header $(basename $@) -o $@
-headers := algorithm array atomic bit chrono cmath cstdint cstdio cstring filesystem fstream functional limits map memory \
+headers := algorithm array atomic bit charconv chrono cmath cstdint cstdio cstring fstream functional limits map memory \
     numeric optional set span sstream string utility vector
 standard := $(filter-out $(brief_common),$(common)) $(call objects_of,chapters/*/main.cpp common/tools/*.cpp scenes/*.cpp $(thorough:%=tests/%/*.cpp))
 $(standard): own_flags += $(call precompiled,standard.h)

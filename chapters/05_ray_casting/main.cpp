@@ -1,6 +1,6 @@
 // Chapter 05 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/05_ray_casting/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

@@ -368,7 +368,7 @@ inline PrimHit traverse_four(const FourHierarchy& h, const Geometry& g, const Ra
 
 /// The steps of the chapter, each faster than the one before.
 enum class Step : uint8_t { linear, median, sah, ordered, four };
-inline const std::vector<std::string> step_names = {"linear", "median", "sah", "ordered", "four"};
+inline const std::vector<const char*> step_names = {"linear", "median", "sah", "ordered", "four"};
 
 /// What each step needs: a hierarchy (linear: none), or one of nodes of four.
 struct Finder {

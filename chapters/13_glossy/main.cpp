@@ -1,6 +1,6 @@
 // Chapter 13 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/13_glossy/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

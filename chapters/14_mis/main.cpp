@@ -1,6 +1,6 @@
 // Chapter 14 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/14_mis/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

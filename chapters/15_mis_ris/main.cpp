@@ -1,6 +1,6 @@
 // Chapter 15 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/15_mis_ris/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

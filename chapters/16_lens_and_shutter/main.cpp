@@ -1,6 +1,6 @@
 // Chapter 16 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/16_lens_and_shutter/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

@@ -2,7 +2,7 @@
 #include "chapters/19_adaptive/estimator.h"
 #include "common/base/files.h"
 #include "common/picture/drawing.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

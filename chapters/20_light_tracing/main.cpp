@@ -1,6 +1,6 @@
 // Chapter 20 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/20_light_tracing/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

@@ -1,7 +1,7 @@
 // Chapter 21 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/21_bidirectional/estimator.h"
 #include "chapters/21_bidirectional/figure.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

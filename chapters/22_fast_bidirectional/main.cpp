@@ -1,6 +1,6 @@
 // Chapter 22 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/22_fast_bidirectional/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

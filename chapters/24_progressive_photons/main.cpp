@@ -1,6 +1,6 @@
 // Chapter 24 as a program: reads options, loads a scene, renders it, writes the picture.
 #include "chapters/24_progressive_photons/estimator.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

@@ -1,7 +1,7 @@
 // Chapter 26 as a program: reads options, loads a scene, solves it, writes the picture.
 #include "chapters/26_radiosity/run.h"
 #include "common/path/radiosity.h"
-#include "common/render/render.h"
+#include "common/render/program.h"
 
 int main(int argc, char** argv) {
     return run_program([&] {

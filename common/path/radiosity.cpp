@@ -7,11 +7,9 @@
 #include "common/scene/intersect.h"
 #include "common/scene/prepare.h"
 
-namespace {
-
 /// The sides that rays from this side meet: 2 i is the front of triangle i, 2 i + 1 its back; a
 /// number above all of them where a ray leaves the scene.
-std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
+static std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
     constexpr uint32_t rays = 256;
     auto [a, b, c] = corners(scene, side / 2);
     Vec3 n = scene.geometry.facet_normals[side / 2];
@@ -30,8 +28,6 @@ std::vector<uint32_t> sides_seen(const Scene& scene, uint32_t side) {
     }
     return seen;
 }
-
-}  // namespace
 
 void refuse(const Scene& scene) {
     for (const Light& light : scene.lights) {

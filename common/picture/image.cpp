@@ -14,16 +14,12 @@
 #include "common/base/files.h"
 #include "common/base/text.h"
 
-namespace {
-
 /// The most bytes that stb may ask for at once: a small file can be made to unpack to gigabytes.
-thread_local size_t most_memory = 0;
+static thread_local size_t most_memory = 0;
 
-void* limited_realloc(void* old, size_t size) {
+static void* limited_realloc(void* old, size_t size) {
     return size > most_memory ? nullptr : std::realloc(old, size);
 }
-
-}  // namespace
 
 #pragma GCC diagnostic push  // stb is not written for our warnings
 #pragma GCC diagnostic ignored "-Wconversion"

@@ -9,10 +9,8 @@
 #include "common/scene/sky_image.h"
 #include "common/scene_file/reader.h"
 
-namespace {
-
 /// The mean radiance from all directions.
-Rgb mean_of(const SkyImage& sky) {
+static Rgb mean_of(const SkyImage& sky) {
     Rgbd sum;
     double weights = 0;
     for (size_t i = 0; i < sky.pixels.size(); i++) {
@@ -22,8 +20,6 @@ Rgb mean_of(const SkyImage& sky) {
     }
     return to_rgb({sum.r / weights, sum.g / weights, sum.b / weights});
 }
-
-}  // namespace
 
 Scene load(const RenderOptions& options, Features features) {
     Progress progress(10);

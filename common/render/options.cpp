@@ -70,6 +70,28 @@ void fail_value(const std::string& option, const std::string& text, const std::s
     throw UsageError("error: --" + option + " takes " + wanted + ", not '" + text + "'");
 }
 
+Option whole_option(const char* name, const char* argument, const char* help, double low,
+                    double high, const WholeNumber& number) {
+    auto set = [=](const std::string& text) {
+        double value = to_number(text).value_or(NAN);
+        if (!(value == std::floor(value) && value >= low && value <= high))
+            fail_value(name, text, format("a whole number from %.0f to %.0f", low, high));
+        number.set(static_cast<int64_t>(value));
+    };
+    return {name, argument, help, set, std::to_string(number.now)};
+}
+
+Option choice_option(const char* name, const char* argument, const char* help,
+                     const std::vector<const char*>& choices, const WholeNumber& choice) {
+    std::vector<std::string> words(choices.begin(), choices.end());
+    auto set = [=](const std::string& text) {
+        auto found = std::find(words.begin(), words.end(), text);
+        if (found == words.end()) fail_value(name, text, listed(words, " or "));
+        choice.set(found - words.begin());
+    };
+    return {name, argument, help, set, words[static_cast<size_t>(choice.now)]};
+}
+
 std::vector<int> split_numbers(const std::string& text, char separator) {
     std::vector<int> numbers;
     std::istringstream parts(text + separator);

@@ -1,7 +1,6 @@
 // Command lines and the error handling that all programs share; the options of the chapters, and
 // the tables that they print.
 #pragma once
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <ctime>
@@ -38,32 +37,24 @@ std::vector<Option> parse_options(int argc, char** argv, const std::string& posi
 /// The whole numbers in a text such as "256x256"; none if it has another form.
 std::vector<int> split_numbers(const std::string& text, char separator);
 
+/// A variable that holds a whole number: a number, a truth or an enumerator.
+struct WholeNumber {
+    int64_t now;
+    std::function<void(int64_t)> set;
+    template <class Variable>
+    WholeNumber(Variable& variable)
+        : now(static_cast<int64_t>(variable)),
+          set([&variable](int64_t value) { variable = static_cast<Variable>(value); }) {}
+};
 /// An option that sets a whole number within [low, high]. Its default is what it is now.
-template <class Number>
-Option whole_option(const std::string& name, const std::string& argument, const std::string& help,
-                    double low, double high, Number& number) {
-    auto set = [=, &number](const std::string& text) {
-        double value = to_number(text).value_or(NAN);
-        if (!(value == std::floor(value) && value >= low && value <= high))
-            fail_value(name, text, format("a whole number from %.0f to %.0f", low, high));
-        number = static_cast<Number>(value);
-    };
-    return {name, argument, help, set, std::to_string(number)};
-}
+Option whole_option(const char* name, const char* argument, const char* help, double low,
+                    double high, const WholeNumber& number);
 /// An option that chooses one of the words; `choice` is its number, from 0.
-template <class Choice>
-Option choice_option(const std::string& name, const std::string& argument, const std::string& help,
-                     const std::vector<std::string>& words, Choice& choice) {
-    auto set = [=, &choice](const std::string& text) {
-        auto found = std::find(words.begin(), words.end(), text);
-        if (found == words.end()) fail_value(name, text, listed(words, " or "));
-        choice = static_cast<Choice>(found - words.begin());
-    };
-    return {name, argument, help, set, words[static_cast<size_t>(choice)]};
-}
+Option choice_option(const char* name, const char* argument, const char* help,
+                     const std::vector<const char*>& words, const WholeNumber& choice);
 /// An option that sets a number greater than 0 (or_zero: or 0, its default).
-inline Option positive_option(const std::string& name, const std::string& argument,
-                              const std::string& help, double& number, bool or_zero = false) {
+inline Option positive_option(const char* name, const char* argument, const char* help,
+                              double& number, bool or_zero = false) {
     auto set = [=, &number](const std::string& text) {
         double value = to_number(text).value_or(NAN);
         bool fits = (value > 0 && std::isfinite(value)) || (or_zero && value == 0);
@@ -73,11 +64,11 @@ inline Option positive_option(const std::string& name, const std::string& argume
     return {name, argument, help, set, or_zero ? "0" : ""};
 }
 /// An option that sets a text, and one without argument.
-inline Option text_option(const std::string& name, const std::string& argument,
-                          const std::string& help, std::string& text) {
+inline Option text_option(const char* name, const char* argument, const char* help,
+                          std::string& text) {
     return {name, argument, help, [&](const std::string& given) { text = given; }};
 }
-inline Option flag_option(const std::string& name, const std::string& help, bool& flag) {
+inline Option flag_option(const char* name, const char* help, bool& flag) {
     return {name, "", help, [&](const std::string&) { flag = true; }};
 }
 

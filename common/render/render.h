@@ -1,5 +1,4 @@
-// What the program of a chapter does: loads a scene, renders it or explains one path, and writes
-// the results.
+// How a scene is loaded and rendered, or one path of it explained, and the results written.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -9,35 +8,12 @@
 
 #include "common/base/files.h"
 #include "common/base/system.h"
-#include "common/path/method.h"
-#include "common/picture/film.h"
-#include "common/render/options.h"
-
-/// Those features of scenes that not all chapters render.
-struct Features {
-    bool lens = false, shutter = false, sky_image = false, dispersion = false, rough = false;
-};
-constexpr Features features_of(int chapter) {
-    auto within = [&](int first, int last) { return first <= chapter && chapter <= last; };
-    return {.lens = within(16, 19) || within(21, 25),
-            .shutter = within(16, 22),
-            .sky_image = within(17, 25),
-            .dispersion = within(18, 19),
-            .rough = chapter == 6 || within(13, 26)};
-}
-
-/// Reads and prepares the scene that the options name. Size, samples and depth in the options
-/// replace those of the scene. Throws as fit_features() and check_outputs() do, before any work.
-Scene load(const RenderOptions& options, Features features);
+#include "common/render/program.h"
 
 /// Throws InputError if the scene has a lens, moving shapes, a sky image, dispersive glass or rough
 /// conductors, and the chapter's `features` do not support it. stand_ins: what has a stand-in is
 /// replaced by it, and told in the scene's origin.
 void fit_features(Scene& scene, Features features, bool stand_ins = false);
-
-/// Throws InputError if the scene has a point or distant light: a path that finds light only by
-/// random hits never finds it.
-void refuse_delta_lights(const Scene& scene);
 
 /// When work has to end before all of it is done: after some seconds, or on a signal.
 ///
@@ -175,7 +151,3 @@ void check_outputs(const Scene& scene, const RenderOptions& options);
 /// Prints the path of the sample options.explain and the sum of its contributions,
 /// and draws it as an SVG beside the first picture. Returns the exit code.
 int explain(const Scene& scene, const RenderOptions& options, const Method& method);
-
-/// Renders the scene or explains one path, and writes what the options ask for. Returns the exit
-/// code.
-int render(const Scene& scene, const RenderOptions& options, const Method& method);
