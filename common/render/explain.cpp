@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr float side = 460, margin = 20;  // px
+constexpr float panel_side = 460, margin = 20;  // px
 constexpr const char *path_style = "fill='#c03' stroke='#c03' stroke-width='2'",
                      *open = "stroke='#080' stroke-width='1.5'",
                      *blocked = "stroke='#555' stroke-width='1.5' stroke-dasharray='5 4'";
@@ -50,11 +50,11 @@ Panel panel_from_above(const Scene& scene, Box box) {
     if (dot(right, scene.camera.right) < 0) right = -right;
     float size = 1.2f * length(box.high - box.low);
     if (size == 0) size = scene.radius;
-    Vec3 dx = size / side * right, dy = -size / side * away, down = -1000 * size * up;
+    Vec3 dx = size / panel_side * right, dy = -size / panel_side * away, down = -1000 * size * up;
     return {false,
-            static_cast<int>(side),
-            static_cast<int>(side),
-            {0.5f * (box.low + box.high) - down, down - side / 2 * (dx + dy), dx, dy}};
+            static_cast<int>(panel_side),
+            static_cast<int>(panel_side),
+            {0.5f * (box.low + box.high) - down, down - panel_side / 2 * (dx + dy), dx, dy}};
 }
 
 std::string base64(std::string bytes) {
@@ -118,7 +118,7 @@ void draw_point(std::string& svg, const Panel& panel, Vec3 p, const std::string&
 /// shadow rays. eye: start of the path from the eye; rays: all rays that the path traced.
 std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex>& vertices,
                       const std::vector<TracedRay>& rays) {
-    float scale = side / static_cast<float>(std::max(scene.width, scene.height));
+    float scale = panel_side / static_cast<float>(std::max(scene.width, scene.height));
     int width = std::max(2, static_cast<int>(scale * static_cast<float>(scene.width))),
         height = std::max(2, static_cast<int>(scale * static_cast<float>(scene.height)));
     Panel by_camera = {true, width, height, camera_view(scene.camera, width, height)};
@@ -126,7 +126,7 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
     for (const PathVertex& x : vertices) box.add(x.p);
     std::string svg;
     svg += format("<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f'>\n",
-                  double{2 * side + 3 * margin}, double{side + margin + 56});
+                  double{2 * panel_side + 3 * margin}, double{panel_side + margin + 56});
     svg += "<rect width='100%' height='100%' fill='white'/>\n";
     float left = margin;
     for (const Panel& panel : {by_camera, panel_from_above(scene, box)}) {
@@ -150,9 +150,9 @@ std::string draw_path(const Scene& scene, Vec3 eye, const std::vector<PathVertex
         svg += "</svg>\n";
         svg += words({left, margin + static_cast<float>(panel.height) + 18},
                      panel.is_camera ? "as the camera sees it" : "from above");
-        left += side + margin;
+        left += panel_side + margin;
     }
-    svg += words({margin, margin + side + 42},
+    svg += words({margin, margin + panel_side + 42},
                  "red: the path; green: a shadow ray that meets nothing; dashed: a blocked one");
     return svg + "</svg>\n";
 }
