@@ -53,7 +53,7 @@ Option whole_option(const char* name, const char* argument, const char* help, do
 Option choice_option(const char* name, const char* argument, const char* help,
                      const std::vector<const char*>& words, const WholeNumber& choice);
 /// An option that sets a number greater than 0 (or_zero: or 0, its default).
-inline Option positive_option(const char* name, const char* argument, const char* help,
+inline Option positive_option(const char* name, const char* argument, const std::string& help,
                               double& number, bool or_zero = false) {
     auto set = [=, &number](const std::string& text) {
         double value = to_number(text).value_or(NAN);
