@@ -9,7 +9,6 @@
 
 namespace {
 
-constexpr double pi_exact = std::numbers::pi;
 constexpr double dart_variance = pi_exact * (4 - pi_exact);
 constexpr double dart_kurtosis = 2.933031911061;
 
