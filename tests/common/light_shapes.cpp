@@ -11,7 +11,6 @@
 
 namespace {
 
-constexpr double pi_exact = std::numbers::pi;
 
 Vec3d unit(Vec3 a) { return normalize(Vec3d(a)); }
 double triangle_angle(Vec3 a, Vec3 b, Vec3 c) {
