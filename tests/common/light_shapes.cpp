@@ -11,7 +11,6 @@
 
 namespace {
 
-
 Vec3d unit(Vec3 a) { return normalize(Vec3d(a)); }
 double triangle_angle(Vec3 a, Vec3 b, Vec3 c) {
     return triangle_solid_angle(unit(a), unit(b), unit(c));
